@@ -1,0 +1,1 @@
+//! What the ground answers: ZMP estimator, margin, compensation.

@@ -1,0 +1,3 @@
+//! The `halfstep` binary.
+
+fn main() {}

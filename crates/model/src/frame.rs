@@ -1,0 +1,76 @@
+//! Frames, described once.
+//!
+//! * **world**: fixed to the floor, z up; x is where the walk headed when it began.
+//! * **support**: origin O on the floor under the ankle of the bearing foot, x along that foot, z up. The code always
+//!   stands on the *right* foot: on the left one, support coordinates are mirrored in y.
+//! * **sole**: origin on a sole under its ankle, x forward, z up when the foot is flat.
+//! * **link**: origin on the joint that carries the link; parallel to the world at zero angles.
+//!
+//! `foot_to_world` takes foot coordinates and gives world coordinates, so that
+//! `point_in_world = foot_to_world * point_in_foot` can be checked by eye.
+
+use nalgebra::Vector3;
+
+/// Standard gravity [m/s²], pointing down.
+pub const GRAVITY: f64 = 9.80665;
+
+/// Force and moment about a named origin, both in the axes of a named frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wrench {
+    /// [N]
+    pub force: Vector3<f64>,
+    /// [N·m]
+    pub moment: Vector3<f64>,
+}
+
+impl Wrench {
+    /// No force, no moment.
+    pub const ZERO: Wrench = Wrench { force: Vector3::new(0.0, 0.0, 0.0), moment: Vector3::new(0.0, 0.0, 0.0) };
+
+    /// The wrench of a force that acts at a point.
+    pub fn at_point(force: Vector3<f64>, point: Vector3<f64>) -> Self {
+        Self { force, moment: point.cross(&force) }
+    }
+
+    /// The same wrench about another origin, which lies at `origin` as seen from the present one.
+    pub fn about(&self, origin: Vector3<f64>) -> Self {
+        Self { force: self.force, moment: self.moment - origin.cross(&self.force) }
+    }
+
+    /// Whether no component is NaN or infinite.
+    pub fn is_finite(&self) -> bool {
+        self.force.iter().chain(self.moment.iter()).all(|value| value.is_finite())
+    }
+
+    /// The mirror image in the sagittal plane: a force keeps x and z, a moment keeps y.
+    pub fn mirrored(&self) -> Self {
+        Self {
+            force: Vector3::new(self.force.x, -self.force.y, self.force.z),
+            moment: Vector3::new(-self.moment.x, self.moment.y, -self.moment.z),
+        }
+    }
+}
+
+impl std::ops::Add for Wrench {
+    type Output = Wrench;
+
+    fn add(self, other: Wrench) -> Wrench {
+        Wrench { force: self.force + other.force, moment: self.moment + other.moment }
+    }
+}
+
+impl std::ops::Sub for Wrench {
+    type Output = Wrench;
+
+    fn sub(self, other: Wrench) -> Wrench {
+        Wrench { force: self.force - other.force, moment: self.moment - other.moment }
+    }
+}
+
+impl std::ops::Mul<f64> for Wrench {
+    type Output = Wrench;
+
+    fn mul(self, factor: f64) -> Wrench {
+        Wrench { force: self.force * factor, moment: self.moment * factor }
+    }
+}

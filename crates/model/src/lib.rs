@@ -1,0 +1,21 @@
+//! What the robot is: joints, links, mechanism, mirror, frames, sole, limits.
+//!
+//! Facts only: nothing here moves. Angles are radians, lengths metres; degrees and joint numbers exist in text only.
+
+pub mod frame;
+mod joint;
+mod mechanism;
+mod mirror;
+mod motion;
+mod per_joint;
+mod side;
+mod sole;
+
+pub use frame::{GRAVITY, Wrench};
+pub use joint::Joint;
+pub use mechanism::{Body, JointLimits, Link, Mechanism, Motor};
+pub use mirror::{Mirror, partner};
+pub use motion::Motion;
+pub use per_joint::{JointVector, PerJoint};
+pub use side::Side;
+pub use sole::Sole;

@@ -1,0 +1,47 @@
+//! A motion at one instant.
+
+use crate::{JointVector, Mirror};
+
+/// Angles [rad], rates [rad/s] and accelerations [rad/s²] of all joints at one instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// [rad]
+    pub angles: JointVector,
+    /// [rad/s]
+    pub rates: JointVector,
+    /// [rad/s²]
+    pub accelerations: JointVector,
+}
+
+impl Motion {
+    /// At rest in a posture.
+    pub fn at_rest(angles: JointVector) -> Self {
+        Self { angles, ..Self::default() }
+    }
+
+    /// The mirror image, told by the other foot.
+    pub fn mirrored(&self, mirror: &Mirror) -> Self {
+        Self {
+            angles: mirror.apply(&self.angles),
+            rates: mirror.apply(&self.rates),
+            accelerations: mirror.apply(&self.accelerations),
+        }
+    }
+
+    /// Whether no value is NaN or infinite.
+    pub fn is_finite(&self) -> bool {
+        self.angles.is_finite() && self.rates.is_finite() && self.accelerations.is_finite()
+    }
+}
+
+impl std::ops::Add for Motion {
+    type Output = Motion;
+
+    fn add(self, other: Motion) -> Motion {
+        Motion {
+            angles: self.angles + other.angles,
+            rates: self.rates + other.rates,
+            accelerations: self.accelerations + other.accelerations,
+        }
+    }
+}

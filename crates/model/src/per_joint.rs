@@ -1,0 +1,117 @@
+//! One value per joint, reached by joint and not by number.
+
+use std::ops::{Add, AddAssign, Index, IndexMut, Mul, Neg, Sub, SubAssign};
+
+use crate::Joint;
+
+/// One `T` for each of the twenty joints, in the order of [`Joint::ALL`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PerJoint<T>(pub [T; Joint::COUNT]);
+
+/// An angle [rad], rate [rad/s], acceleration [rad/s²] or torque [N·m] for each joint.
+pub type JointVector = PerJoint<f64>;
+
+impl<T> PerJoint<T> {
+    /// Makes each joint's value from the joint.
+    pub fn from_fn(mut value: impl FnMut(Joint) -> T) -> Self {
+        Self(std::array::from_fn(|index| value(Joint::ALL[index])))
+    }
+
+    /// The joints and their values, parents first.
+    pub fn iter(&self) -> impl Iterator<Item = (Joint, &T)> {
+        Joint::ALL.into_iter().zip(&self.0)
+    }
+}
+
+impl JointVector {
+    /// All zero: the robot standing straight, or at rest.
+    pub const ZERO: JointVector = PerJoint([0.0; Joint::COUNT]);
+
+    /// Zero but for one joint.
+    pub fn unit(joint: Joint) -> Self {
+        let mut unit = Self::ZERO;
+        unit[joint] = 1.0;
+        unit
+    }
+
+    /// Whether no value is NaN or infinite.
+    pub fn is_finite(&self) -> bool {
+        self.0.iter().all(|value| value.is_finite())
+    }
+
+    /// The largest absolute value.
+    pub fn max_abs(&self) -> f64 {
+        self.0.iter().fold(0.0, |max, value| value.abs().max(max))
+    }
+
+    /// Joint by joint, `f` of both values.
+    pub fn zip_with(&self, other: &Self, mut f: impl FnMut(f64, f64) -> f64) -> Self {
+        PerJoint(std::array::from_fn(|index| f(self.0[index], other.0[index])))
+    }
+}
+
+impl Default for JointVector {
+    fn default() -> Self {
+        Self::ZERO
+    }
+}
+
+impl<T> Index<Joint> for PerJoint<T> {
+    type Output = T;
+
+    #[inline]
+    fn index(&self, joint: Joint) -> &T {
+        &self.0[joint.index()]
+    }
+}
+
+impl<T> IndexMut<Joint> for PerJoint<T> {
+    #[inline]
+    fn index_mut(&mut self, joint: Joint) -> &mut T {
+        &mut self.0[joint.index()]
+    }
+}
+
+impl Add for JointVector {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        self.zip_with(&other, |a, b| a + b)
+    }
+}
+
+impl AddAssign for JointVector {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl Sub for JointVector {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self.zip_with(&other, |a, b| a - b)
+    }
+}
+
+impl SubAssign for JointVector {
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl Mul<f64> for JointVector {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        PerJoint(self.0.map(|value| value * factor))
+    }
+}
+
+impl Neg for JointVector {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        self * -1.0
+    }
+}

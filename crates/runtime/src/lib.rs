@@ -1,0 +1,1 @@
+//! When: deadlines, scheduling, journal.

@@ -1,0 +1,1 @@
+//! Offline: the semi-inverse nominal half-step.

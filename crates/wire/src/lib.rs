@@ -1,0 +1,1 @@
+//! What crosses the process boundary; the only crate that names iceoryx2.
