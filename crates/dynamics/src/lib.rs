@@ -1,1 +1,31 @@
-//! What physics says of any motion: kinematics, Newton–Euler, articulated body, mass matrix, ZMP, support polygon, time scaling.
+//! What physics says of any motion: kinematics, Newton–Euler, articulated body, mass matrix, ZMP, support polygon, time
+//! scaling.
+//!
+//! Every algorithm works in world axes about one common origin (O for the robot on flat ground, the right sole for the
+//! floating robot), so that nothing is transformed from link to link: what a subtree weighs is a plain sum. Nothing
+//! allocates: a [`Tree`] is read-only, results live in structs that are made once and filled in stages, as in Pinocchio's
+//! model and data.
+
+mod articulated_body;
+mod energy;
+mod inverse_kinematics;
+mod kinematics;
+mod mass_matrix;
+mod newton_euler;
+mod sin_cos;
+mod support_polygon;
+mod time_scaling;
+mod tree;
+mod zmp;
+
+pub use articulated_body::{Accelerations, ArticulatedBody, LinkLoad};
+pub use energy::{kinetic_energy, potential_energy};
+pub use inverse_kinematics::{Leg, Unreachable, solve_leg};
+pub use kinematics::Kinematics;
+pub use mass_matrix::{MassMatrix, mass_matrix};
+pub use newton_euler::{BaseMotion, NewtonEuler};
+pub use sin_cos::sin_cos;
+pub use support_polygon::SupportPolygon;
+pub use time_scaling::{wrench_at_speed, zmp_at_speed};
+pub use tree::Tree;
+pub use zmp::zmp;

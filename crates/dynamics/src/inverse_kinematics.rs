@@ -1,0 +1,91 @@
+//! Leg inverse kinematics: six joints that bring one end of a leg into a pose.
+//!
+//! Newton's method on the geometric Jacobian. It reads the axes from the mechanism, so it serves every axis reading, and
+//! with the angles of a moment ago as a first guess it needs two or three iterations.
+
+use model::{Joint, JointVector, Side};
+use nalgebra::{Isometry3, Matrix6, UnitQuaternion, Vector3, Vector6};
+
+use crate::{Kinematics, Tree};
+
+/// Residual below which a pose counts as reached [m and rad].
+const TOLERANCE: f64 = 1e-12;
+const ITERATIONS_MAX: usize = 40;
+/// Longest Newton step [rad]; a stretched leg asks for wild ones.
+const STEP_MAX: f64 = 0.3;
+
+/// A leg as a chain of six joints; the right one is walked from foot to pelvis, the left one from pelvis to foot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Leg(pub Side);
+
+/// The pose cannot be reached, or only through a stretched knee: the distance that remained [m or rad].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unreachable {
+    /// Largest component of what is left [m or rad].
+    pub residual: f64,
+}
+
+impl Leg {
+    /// From the ground up for the right leg, from the pelvis down for the left one.
+    pub const fn joints(self) -> [Joint; 6] {
+        use Joint::*;
+        match self.0 {
+            Side::Right => [RightAnkleRoll, RightAnklePitch, RightKnee, RightHipPitch, RightHipYaw, RightHipRoll],
+            Side::Left => [LeftHipRoll, LeftHipYaw, LeftHipPitch, LeftKnee, LeftAnklePitch, LeftAnkleRoll],
+        }
+    }
+
+    /// The link at the chain's far end: pelvis or left foot.
+    pub const fn end(self) -> Joint {
+        self.joints()[5]
+    }
+}
+
+/// Changes the six angles of a leg in `angles` until the link at its end has the pose `target` (link to support
+/// coordinates), all other angles kept. The angles given are the first guess and choose the way the knee bends.
+///
+/// # Errors
+/// [`Unreachable`] leaves the closest angles found.
+pub fn solve_leg(tree: &Tree, leg: Leg, target: &Isometry3<f64>, angles: &mut JointVector) -> Result<(), Unreachable> {
+    let mut kinematics = Kinematics::default();
+    let mut residual = f64::INFINITY;
+    for _ in 0..ITERATIONS_MAX {
+        kinematics.stand(tree, angles);
+        let end = kinematics.link_to_world(leg.end());
+        let miss = pose_difference(&end, target);
+        residual = miss.amax();
+        if residual < TOLERANCE {
+            return Ok(());
+        }
+
+        let mut jacobian = Matrix6::zeros();
+        for (column, joint) in leg.joints().into_iter().enumerate() {
+            let axis = kinematics.axis[joint];
+            let arm = end.translation.vector - kinematics.origin[joint];
+            jacobian.fixed_view_mut::<3, 1>(0, column).copy_from(&axis.cross(&arm));
+            jacobian.fixed_view_mut::<3, 1>(3, column).copy_from(&axis);
+        }
+        let Some(step) = jacobian.lu().solve(&miss) else { break };
+        let shorten = (STEP_MAX / step.amax()).min(1.0);
+        for (joint, change) in leg.joints().into_iter().zip(step.iter()) {
+            angles[joint] += change * shorten;
+        }
+    }
+    // Rounding may keep the last bits from settling.
+    if residual < 1e3 * TOLERANCE { Ok(()) } else { Err(Unreachable { residual }) }
+}
+
+/// Translation [m] and rotation vector [rad] that lead from one pose to another, in world axes.
+fn pose_difference(from: &Isometry3<f64>, to: &Isometry3<f64>) -> Vector6<f64> {
+    let shift: Vector3<f64> = to.translation.vector - from.translation.vector;
+    let turn = rotation_vector(&(to.rotation * from.rotation.inverse()));
+    Vector6::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z)
+}
+
+/// As [`UnitQuaternion::scaled_axis`], accurate and without a branch on tiny rotations.
+fn rotation_vector(rotation: &UnitQuaternion<f64>) -> Vector3<f64> {
+    let (scalar, vector) =
+        if rotation.w < 0.0 { (-rotation.w, -rotation.imag()) } else { (rotation.w, rotation.imag()) };
+    let sine = vector.norm();
+    if sine < 1e-9 { vector * 2.0 } else { vector * (2.0 * sine.atan2(scalar) / sine) }
+}

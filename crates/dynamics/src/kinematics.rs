@@ -1,0 +1,91 @@
+//! Where every link is.
+
+use model::{Joint, JointVector, Mechanism, PerJoint, Side};
+use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
+
+use crate::Tree;
+
+/// Poses of all links, in world axes.
+#[derive(Clone, Debug)]
+pub struct Kinematics {
+    /// Maps link coordinates to world axes.
+    pub rotation: PerJoint<Matrix3<f64>>,
+    /// Origin of each link, on its joint [m].
+    pub origin: PerJoint<Vector3<f64>>,
+    /// Axis of each joint.
+    pub axis: PerJoint<Vector3<f64>>,
+}
+
+impl Default for Kinematics {
+    fn default() -> Self {
+        Self {
+            rotation: PerJoint([Matrix3::identity(); Joint::COUNT]),
+            origin: PerJoint([Vector3::zeros(); Joint::COUNT]),
+            axis: PerJoint([Vector3::zeros(); Joint::COUNT]),
+        }
+    }
+}
+
+impl Kinematics {
+    /// The robot standing with its right sole at O; joints 1 and 2 tip it on the ground.
+    pub fn standing(tree: &Tree, angles: &JointVector) -> Self {
+        let mut kinematics = Self::default();
+        kinematics.stand(tree, angles);
+        kinematics
+    }
+
+    /// As [`Kinematics::standing`], in place.
+    #[inline]
+    pub fn stand(&mut self, tree: &Tree, angles: &JointVector) {
+        self.chain(tree, angles, Joint::ALL.into_iter());
+    }
+
+    /// The floating robot, whose right sole frame has the given pose.
+    #[inline]
+    pub fn float(&mut self, tree: &Tree, right_sole: &Isometry3<f64>, angles: &JointVector) {
+        let base = Mechanism::foot(Side::Right);
+        self.rotation[base] = right_sole.rotation.to_rotation_matrix().into_inner();
+        self.origin[base] = right_sole.translation.vector;
+        self.chain(tree, angles, Tree::floating_joints());
+    }
+
+    #[inline(always)]
+    fn chain(&mut self, tree: &Tree, angles: &JointVector, joints: impl Iterator<Item = Joint>) {
+        for joint in joints {
+            let node = &tree.nodes[joint];
+            let (parent_rotation, parent_origin) = match node.parent {
+                Some(parent) => (self.rotation[parent], self.origin[parent]),
+                None => (Matrix3::identity(), Vector3::zeros()),
+            };
+            let (rotation, axis) = node.turn.apply(&parent_rotation, angles[joint]);
+            self.rotation[joint] = rotation;
+            self.axis[joint] = axis;
+            self.origin[joint] = match node.origin {
+                Some(origin) => parent_origin + parent_rotation * origin,
+                None => parent_origin,
+            };
+        }
+    }
+
+    /// Pose of a link: maps link coordinates to world coordinates.
+    pub fn link_to_world(&self, link: Joint) -> Isometry3<f64> {
+        let rotation = Rotation3::from_matrix_unchecked(self.rotation[link]);
+        Isometry3::from_parts(Translation3::from(self.origin[link]), UnitQuaternion::from_rotation_matrix(&rotation))
+    }
+
+    /// Pose of a sole: maps sole coordinates to world coordinates.
+    pub fn sole_to_world(&self, mechanism: &Mechanism, side: Side) -> Isometry3<f64> {
+        self.link_to_world(Mechanism::foot(side)) * Translation3::from(mechanism.sole_in_foot(side))
+    }
+
+    /// Centre of mass of the whole robot [m].
+    pub fn com(&self, tree: &Tree) -> Vector3<f64> {
+        let mut moment = Vector3::zeros();
+        for (link, node) in tree.nodes.iter() {
+            if let Some(body) = &node.body {
+                moment += body.mass * (self.origin[link] + self.rotation[link] * body.com);
+            }
+        }
+        moment / tree.mass
+    }
+}

@@ -1,0 +1,123 @@
+//! The support polygon: the convex hull of what touches the ground.
+
+use nalgebra::Vector2;
+
+/// At most both soles' corners.
+const CORNERS_MAX: usize = 8;
+
+/// A convex polygon on the floor, corners counter-clockwise seen from above.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SupportPolygon {
+    corners: heapless::Vec<Vector2<f64>, CORNERS_MAX>,
+}
+
+impl SupportPolygon {
+    /// The convex hull of points of the floor [m] (Andrew 1979). Points beyond the eighth are ignored: two soles have no
+    /// more.
+    pub fn hull(points: impl IntoIterator<Item = Vector2<f64>>) -> Self {
+        let mut sorted: heapless::Vec<Vector2<f64>, CORNERS_MAX> = points.into_iter().take(CORNERS_MAX).collect();
+        sorted.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+
+        let mut corners = heapless::Vec::new();
+        half_hull(sorted.iter(), &mut corners);
+        half_hull(sorted.iter().rev(), &mut corners);
+        if corners.is_empty() {
+            corners.extend(sorted.first().copied());
+        }
+        Self { corners }
+    }
+
+    /// The corners, counter-clockwise seen from above [m].
+    pub fn corners(&self) -> &[Vector2<f64>] {
+        &self.corners
+    }
+
+    /// Signed distance of a point to the edge [m]: positive inside, negative outside. Nothing on the ground supports
+    /// nothing: −∞.
+    pub fn margin(&self, point: Vector2<f64>) -> f64 {
+        let count = self.corners.len();
+        let mut inside = count > 2;
+        let mut distance = f64::INFINITY;
+        for index in 0..count {
+            let (start, end) = (self.corners[index], self.corners[(index + 1) % count]);
+            inside &= cross(end - start, point - start) >= 0.0;
+            distance = distance.min(distance_to_segment(point, start, end));
+        }
+        if count == 0 {
+            f64::NEG_INFINITY
+        } else if inside {
+            distance
+        } else {
+            -distance
+        }
+    }
+}
+
+/// Appends one side of the hull, without its last point, which begins the other side.
+fn half_hull<'a>(points: impl Iterator<Item = &'a Vector2<f64>>, hull: &mut heapless::Vec<Vector2<f64>, CORNERS_MAX>) {
+    let mut side: heapless::Vec<Vector2<f64>, CORNERS_MAX> = heapless::Vec::new();
+    for &point in points {
+        while let [.., a, b] = side[..]
+            && cross(b - a, point - a) <= 0.0
+        {
+            side.pop();
+        }
+        // Never full: the points are at most as many as there is room.
+        let _ = side.push(point);
+    }
+    side.pop();
+    hull.extend(side);
+}
+
+fn cross(a: Vector2<f64>, b: Vector2<f64>) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+fn distance_to_segment(point: Vector2<f64>, start: Vector2<f64>, end: Vector2<f64>) -> f64 {
+    let along = end - start;
+    let length_squared = along.norm_squared();
+    let share = if length_squared > 0.0 { ((point - start).dot(&along) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
+    (point - (start + along * share)).norm()
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector2;
+
+    use super::SupportPolygon;
+
+    fn square() -> SupportPolygon {
+        SupportPolygon::hull(
+            [(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.5, 0.5), (0.0, 1.0)].map(|(x, y)| Vector2::new(x, y)),
+        )
+    }
+
+    #[test]
+    fn points_within_are_no_corners() {
+        assert_eq!(square().corners().len(), 4);
+    }
+
+    #[test]
+    fn margin_is_positive_inside_zero_on_the_edge_and_negative_outside() {
+        assert!((square().margin(Vector2::new(0.5, 0.4)) - 0.4).abs() < 1e-15);
+        assert_eq!(square().margin(Vector2::new(1.0, 0.5)), 0.0);
+        assert!((square().margin(Vector2::new(4.0, 5.0)) + 5.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn nothing_supports_nothing_and_a_point_only_itself() {
+        assert_eq!(SupportPolygon::hull([]).margin(Vector2::zeros()), f64::NEG_INFINITY);
+        let point = SupportPolygon::hull([Vector2::new(1.0, 0.0)]);
+        assert_eq!(point.margin(Vector2::new(3.0, 0.0)), -2.0);
+    }
+
+    #[test]
+    fn two_soles_make_a_hexagon_at_most_octagon() {
+        let sole = |x: f64, y: f64| {
+            [(0.21, -0.04), (0.21, 0.04), (-0.07, 0.04), (-0.07, -0.04)].map(|(dx, dy)| Vector2::new(x + dx, y + dy))
+        };
+        let polygon = SupportPolygon::hull(sole(0.0, 0.0).into_iter().chain(sole(0.25, 0.19)));
+        assert_eq!(polygon.corners().len(), 6);
+        assert!(polygon.margin(Vector2::new(0.125, 0.095)) > 0.0);
+    }
+}

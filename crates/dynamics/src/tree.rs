@@ -1,0 +1,93 @@
+//! The mechanism as the algorithms want it: parents as positions, axes sorted by direction, massless links known.
+
+use model::{Joint, Mechanism, PerJoint};
+use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+
+use crate::sin_cos;
+
+/// A mechanism prepared for computing. Read-only.
+#[derive(Clone, Debug)]
+pub struct Tree {
+    pub(crate) nodes: PerJoint<Node>,
+    /// Mass of the whole robot [kg].
+    pub mass: f64,
+}
+
+/// One joint and its link.
+#[derive(Clone, Debug)]
+pub(crate) struct Node {
+    /// `None` for the ground.
+    pub parent: Option<Joint>,
+    pub turn: Turn,
+    /// `None` where the joint meets its parent in one point.
+    pub origin: Option<Vector3<f64>>,
+    /// `None` for massless links.
+    pub body: Option<model::Body>,
+}
+
+/// The axis of a joint. Nearly all are along a coordinate, where a rotation touches two columns only.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Turn {
+    X,
+    Y,
+    Z,
+    About(Unit<Vector3<f64>>),
+}
+
+impl Tree {
+    /// Prepares a mechanism.
+    pub fn new(mechanism: &Mechanism) -> Self {
+        let nodes = PerJoint::from_fn(|joint| {
+            let link = &mechanism.links[joint];
+            Node {
+                parent: link.parent,
+                turn: Turn::new(link.axis),
+                origin: (link.origin != Vector3::zeros()).then_some(link.origin),
+                body: (link.body.mass > 0.0).then_some(link.body),
+            }
+        });
+        Self { nodes, mass: mechanism.mass() }
+    }
+
+    /// The joints of the floating robot, whose base is the right foot: all but the two on the ground.
+    pub(crate) fn floating_joints() -> impl DoubleEndedIterator<Item = Joint> {
+        Joint::ALL[Joint::FIRST_POWERED.index()..].iter().copied()
+    }
+}
+
+impl Turn {
+    fn new(axis: Unit<Vector3<f64>>) -> Self {
+        if axis == Vector3::x_axis() {
+            Turn::X
+        } else if axis == Vector3::y_axis() {
+            Turn::Y
+        } else if axis == Vector3::z_axis() {
+            Turn::Z
+        } else {
+            Turn::About(axis)
+        }
+    }
+
+    /// The child's rotation and the joint's axis in the world, from the parent's rotation.
+    #[inline(always)]
+    pub fn apply(self, parent: &Matrix3<f64>, angle: f64) -> (Matrix3<f64>, Vector3<f64>) {
+        let (x, y, z) = (parent.column(0), parent.column(1), parent.column(2));
+        match self {
+            Turn::X => {
+                let (sine, cosine) = sin_cos(angle);
+                (Matrix3::from_columns(&[x.into(), y * cosine + z * sine, z * cosine - y * sine]), x.into())
+            }
+            Turn::Y => {
+                let (sine, cosine) = sin_cos(angle);
+                (Matrix3::from_columns(&[x * cosine - z * sine, y.into(), x * sine + z * cosine]), y.into())
+            }
+            Turn::Z => {
+                let (sine, cosine) = sin_cos(angle);
+                (Matrix3::from_columns(&[x * cosine + y * sine, y * cosine - x * sine, z.into()]), z.into())
+            }
+            Turn::About(axis) => {
+                (parent * Rotation3::from_axis_angle(&axis, angle).into_inner(), parent * axis.into_inner())
+            }
+        }
+    }
+}
