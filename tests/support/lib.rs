@@ -1,1 +1,45 @@
-//! What several statements share.
+//! What several statements share: the committed robot, and random motions with a seed.
+
+use std::path::PathBuf;
+
+use model::{Joint, JointVector, Mechanism, Motion, PerJoint};
+use rand::{Rng, SeedableRng, rngs::StdRng};
+
+/// The repository's root.
+pub fn repository() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the repository").to_path_buf()
+}
+
+/// `config/mechanism.toml`.
+pub fn mechanism() -> Mechanism {
+    Mechanism::load(repository().join("config/mechanism.toml")).expect("the committed mechanism loads")
+}
+
+/// A generator of random motions; the same seed gives the same.
+pub fn random(seed: u64) -> StdRng {
+    StdRng::seed_from_u64(seed)
+}
+
+/// Values within ±`size`, one per joint.
+pub fn random_joints(random: &mut StdRng, size: f64) -> JointVector {
+    PerJoint::from_fn(|_| random.random_range(-size..size))
+}
+
+/// A motion with angles within ±0.8 rad, rates within ±3 rad/s and accelerations within ±20 rad/s².
+pub fn random_motion(random: &mut StdRng) -> Motion {
+    Motion {
+        angles: random_joints(random, 0.8),
+        rates: random_joints(random, 3.0),
+        accelerations: random_joints(random, 20.0),
+    }
+}
+
+/// The same with the two unpowered joints at rest: the floating robot has none.
+pub fn without_contact_joints(mut motion: Motion) -> Motion {
+    for joint in [Joint::FootRoll, Joint::FootPitch] {
+        motion.angles[joint] = 0.0;
+        motion.rates[joint] = 0.0;
+        motion.accelerations[joint] = 0.0;
+    }
+    motion
+}

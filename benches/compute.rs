@@ -1,0 +1,77 @@
+//! What one configuration, one integration step and one control period cost.
+//!
+//! To beat, on the same kind of machine: Pinocchio's RNEA 2.8 µs, its ABA 5.6 µs, MuJoCo's step with both soles on the
+//! ground 17 µs.
+
+use std::hint::black_box;
+use std::path::Path;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use dynamics::{ArticulatedBody, Kinematics, NewtonEuler, Tree, mass_matrix, zmp};
+use model::{JointVector, Mechanism, Motion, PerJoint};
+use nalgebra::{Isometry3, Vector3};
+use plant::{Parameters, Plant, Setpoint};
+
+fn mechanism() -> Mechanism {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../config/mechanism.toml");
+    Mechanism::load(file).expect("the committed mechanism loads")
+}
+
+/// Different in every joint, so that nothing is a special case.
+fn motion() -> Motion {
+    let spread = |size: f64| PerJoint::from_fn(|joint| size * (f64::from(joint.number()) * 0.7).sin());
+    Motion { angles: spread(0.5), rates: spread(2.0), accelerations: spread(10.0) }
+}
+
+fn dynamics(criterion: &mut Criterion) {
+    let tree = Tree::new(&mechanism());
+    let motion = motion();
+    let mut group = criterion.benchmark_group("dynamics");
+
+    let mut inverse = NewtonEuler::default();
+    group.bench_function("newton_euler_and_zmp", |bencher| {
+        bencher.iter(|| {
+            inverse.stand(&tree, black_box(&motion));
+            zmp(&inverse.ground)
+        });
+    });
+    group.bench_function("kinematics_and_com", |bencher| {
+        let mut kinematics = Kinematics::default();
+        bencher.iter(|| {
+            kinematics.stand(&tree, black_box(&motion.angles));
+            kinematics.com(&tree)
+        });
+    });
+    group.bench_function("mass_matrix", |bencher| {
+        let kinematics = Kinematics::standing(&tree, &motion.angles);
+        bencher.iter(|| mass_matrix(&tree, black_box(&kinematics)));
+    });
+    group.bench_function("forward_dynamics", |bencher| {
+        let mut body = ArticulatedBody::default();
+        let pose = Isometry3::identity();
+        bencher.iter(|| {
+            let motion = black_box(&motion);
+            body.set_state(&tree, &pose, Vector3::x(), Vector3::y(), &motion.angles, &motion.rates);
+            body.accelerations(&tree, &motion.accelerations, &JointVector::ZERO, &[])
+        });
+    });
+    group.finish();
+}
+
+fn plant(criterion: &mut Criterion) {
+    let mechanism = mechanism();
+    let mut group = criterion.benchmark_group("plant");
+    let one_step = Parameters { steps_per_period: 1, ..Parameters::default() };
+    let mut standing = Plant::new(&mechanism, &one_step, &Motion::default(), 2.5e-4, 1);
+    group.bench_function("step_on_both_soles", |bencher| {
+        bencher.iter(|| standing.step(black_box(&Setpoint::default())));
+    });
+    let mut standing = Plant::new(&mechanism, &Parameters::default(), &Motion::default(), 1e-3, 1);
+    group.bench_function("control_period_on_both_soles", |bencher| {
+        bencher.iter(|| standing.step(black_box(&Setpoint::default())));
+    });
+    group.finish();
+}
+
+criterion_group!(benches, dynamics, plant);
+criterion_main!(benches);

@@ -1,0 +1,136 @@
+//! The soles on the ground: a spring and damper under each corner, and bristles for dry friction.
+//!
+//! * Normal: `F_n = k·depth − d·v_z`, never pulling.
+//! * Tangential: a bristle with spring and damper, held until it would exceed `μ·F_n`; then it slides along and keeps the
+//!   deflection that the cone allows (Cundall and Strack 1979). Unlike a friction that needs speed it lets a loaded sole
+//!   stand still.
+//!
+//! All forces are those at the *end* of the integration step, linearised: see [`LinkLoad::added_inertia`].
+
+use dynamics::LinkLoad;
+use model::{Joint, Mechanism, Side, Sole, Wrench};
+use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3, Vector6};
+
+use crate::ContactParameters;
+
+/// Both soles.
+#[derive(Clone, Debug)]
+pub struct GroundContact {
+    /// Right, then left.
+    pub feet: [FootContact; 2],
+}
+
+/// One sole on the ground.
+#[derive(Clone, Debug)]
+pub struct FootContact {
+    link: Joint,
+    corners: [Corner; Sole::CORNERS],
+    /// Force of the ground on the foot at the end of the last step, about the world's origin axes at the right sole.
+    load: LinkLoad,
+}
+
+/// One corner of a sole.
+#[derive(Clone, Copy, Debug, Default)]
+struct Corner {
+    /// In the foot link's frame [m].
+    in_link: Vector3<f64>,
+    /// How far the bristle is bent, in the ground plane [m].
+    bristle: Vector3<f64>,
+}
+
+/// How a foot link is placed and moves, about the right sole's origin in world axes.
+#[derive(Clone, Copy, Debug)]
+pub struct FootMotion {
+    /// Maps link coordinates to world axes.
+    pub rotation: Matrix3<f64>,
+    /// The link's origin [m].
+    pub origin: Vector3<f64>,
+    /// Spatial velocity (angular, linear).
+    pub velocity: Vector6<f64>,
+}
+
+impl GroundContact {
+    /// Both soles of a mechanism, bristles unbent.
+    pub fn new(mechanism: &Mechanism) -> Self {
+        Self { feet: Side::BOTH.map(|side| FootContact::new(mechanism, side)) }
+    }
+}
+
+impl FootContact {
+    fn new(mechanism: &Mechanism, side: Side) -> Self {
+        let link = Mechanism::foot(side);
+        let offset = mechanism.sole_in_foot(side);
+        Self {
+            link,
+            corners: mechanism.sole.corners().map(|corner| Corner { in_link: corner + offset, ..Corner::default() }),
+            load: LinkLoad { link, wrench: Wrench::ZERO, added_inertia: Matrix6::zeros() },
+        }
+    }
+
+    /// What the ground does to the foot over the coming step.
+    ///
+    /// * `base_height` – of the right sole's origin over the ground [m]
+    /// * `step` – [s]
+    pub fn press(
+        &mut self,
+        foot: &FootMotion,
+        base_height: f64,
+        parameters: &ContactParameters,
+        step: f64,
+    ) -> &LinkLoad {
+        let angular = foot.velocity.fixed_rows::<3>(0).into_owned();
+        let linear = foot.velocity.fixed_rows::<3>(3).into_owned();
+        self.load = LinkLoad { link: self.link, wrench: Wrench::ZERO, added_inertia: Matrix6::zeros() };
+
+        for corner in &mut self.corners {
+            let arm = foot.origin + foot.rotation * corner.in_link;
+            let velocity = linear + angular.cross(&arm);
+            let depth = -(base_height + arm.z);
+            let normal = parameters.stiffness * (depth - step * velocity.z) - parameters.damping * velocity.z;
+            if depth <= 0.0 || normal <= 0.0 {
+                corner.bristle = Vector3::zeros();
+                continue;
+            }
+
+            let slip = Vector3::new(velocity.x, velocity.y, 0.0);
+            let bent = corner.bristle + slip * step;
+            let held = -(bent * parameters.stiffness_tangential + slip * parameters.damping_tangential);
+            let limit = parameters.friction * normal;
+            let sticks = held.norm_squared() <= limit * limit;
+            let tangential = if sticks { held } else { held * (limit / held.norm()) };
+            // Sliding keeps the deflection that the cone allows.
+            corner.bristle = if sticks { bent } else { -tangential / parameters.stiffness_tangential };
+
+            let force = Vector3::new(tangential.x, tangential.y, normal);
+            self.load.wrench = self.load.wrench + Wrench::at_point(force, arm);
+
+            let implicit = |stiffness: f64, damping: f64| step * damping + step * step * stiffness;
+            let yielding_normal = implicit(parameters.stiffness, parameters.damping);
+            let yielding_tangential =
+                if sticks { implicit(parameters.stiffness_tangential, parameters.damping_tangential) } else { 0.0 };
+            self.load.added_inertia +=
+                point_inertia(arm, Vector3::new(yielding_tangential, yielding_tangential, yielding_normal));
+        }
+        &self.load
+    }
+
+    /// The force that acted over the step, now that the link's acceleration is known; about the right sole's origin, in
+    /// world axes.
+    pub fn acted(&self, acceleration: &Vector6<f64>) -> Wrench {
+        let yielded = self.load.added_inertia * acceleration;
+        self.load.wrench
+            - Wrench { moment: yielded.fixed_rows::<3>(0).into_owned(), force: yielded.fixed_rows::<3>(3).into_owned() }
+    }
+}
+
+/// Spatial inertia of a point with a different mass along each world axis.
+fn point_inertia(arm: Vector3<f64>, mass: Vector3<f64>) -> Matrix6<f64> {
+    let mut jacobian = Matrix3x6::zeros();
+    jacobian.fixed_view_mut::<3, 3>(0, 0).copy_from(&-arm.cross_matrix());
+    jacobian.fixed_view_mut::<3, 3>(0, 3).fill_with_identity();
+    let mut weighted = jacobian;
+    for (mut row, mass) in weighted.row_iter_mut().zip(mass.iter()) {
+        row *= *mass;
+    }
+    jacobian.tr_mul(&weighted)
+}

@@ -1,0 +1,112 @@
+//! What can be set about the simulated robot beyond its mechanism.
+
+use model::{Joint, PerJoint};
+
+/// All of it; `config/plant.toml`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameters {
+    /// Integration steps per control period.
+    pub steps_per_period: u32,
+    /// The ground under the soles.
+    pub contact: ContactParameters,
+    /// The drives' position servos.
+    pub servo: PerJoint<ServoParameters>,
+    /// The sensors' imperfections.
+    pub sensors: SensorParameters,
+}
+
+/// Ground and sole, per corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactParameters {
+    /// Normal stiffness [N/m]. Tipping stiffness follows: four corners 4 cm off the middle must be far stiffer than the
+    /// robot's own fall (m·g·h ≈ 700 N·m/rad).
+    pub stiffness: f64,
+    /// Normal damping [N·s/m].
+    pub damping: f64,
+    /// Stiffness of the friction bristle [N/m].
+    pub stiffness_tangential: f64,
+    /// Damping of the friction bristle [N·s/m].
+    pub damping_tangential: f64,
+    /// Friction coefficient `μ`.
+    pub friction: f64,
+}
+
+/// A drive's position servo, seen at the joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ServoParameters {
+    /// [N·m/rad]
+    pub stiffness: f64,
+    /// [N·m·s/rad]
+    pub damping: f64,
+}
+
+/// How the sensors err. Standard deviations of white noise per sample; all zero for perfect sensors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SensorParameters {
+    /// Samples arrive this many control periods late, 0 to [`crate::Sensors::DELAY_MAX`].
+    pub delay_periods: u32,
+    /// Smallest difference of a joint angle that the encoder tells [rad]; 0 for none.
+    pub angle_resolution: f64,
+    /// [rad/s]
+    pub rate_noise: f64,
+    /// [N]
+    pub force_noise: f64,
+    /// [N·m]
+    pub moment_noise: f64,
+    /// [rad]
+    pub orientation_noise: f64,
+    /// [rad/s]
+    pub angular_rate_noise: f64,
+    /// [A]
+    pub current_noise: f64,
+}
+
+impl Default for ContactParameters {
+    fn default() -> Self {
+        Self { stiffness: 1.0e6, damping: 2.0e3, stiffness_tangential: 5.0e5, damping_tangential: 1.0e3, friction: 0.8 }
+    }
+}
+
+impl SensorParameters {
+    /// Sensors that tell the truth at once.
+    pub const PERFECT: SensorParameters = SensorParameters {
+        delay_periods: 0,
+        angle_resolution: 0.0,
+        rate_noise: 0.0,
+        force_noise: 0.0,
+        moment_noise: 0.0,
+        orientation_noise: 0.0,
+        angular_rate_noise: 0.0,
+        current_noise: 0.0,
+    };
+}
+
+impl Default for SensorParameters {
+    fn default() -> Self {
+        Self {
+            delay_periods: 1,
+            angle_resolution: 2.0e-5,
+            rate_noise: 5.0e-3,
+            force_noise: 2.0,
+            moment_noise: 0.2,
+            orientation_noise: 1.0e-3,
+            angular_rate_noise: 5.0e-3,
+            current_noise: 0.05,
+        }
+    }
+}
+
+impl Default for Parameters {
+    fn default() -> Self {
+        let legs_and_waist = ServoParameters { stiffness: 5000.0, damping: 150.0 };
+        let arms = ServoParameters { stiffness: 500.0, damping: 15.0 };
+        Self {
+            steps_per_period: 4,
+            contact: ContactParameters::default(),
+            servo: PerJoint::from_fn(
+                |joint| if joint.index() >= Joint::RightShoulder.index() { arms } else { legs_and_waist },
+            ),
+            sensors: SensorParameters::default(),
+        }
+    }
+}

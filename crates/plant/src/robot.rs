@@ -1,0 +1,64 @@
+//! The state of the floating robot.
+
+use dynamics::{Accelerations, Kinematics, Tree};
+use model::{JointVector, Mechanism, Motion, Side};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+
+/// Where the robot is and how it moves. The base is the right sole.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotState {
+    /// Maps right-sole coordinates to world coordinates.
+    pub sole_to_world: Isometry3<f64>,
+    /// Of the right foot, in world axes [rad/s].
+    pub angular_rate: Vector3<f64>,
+    /// Of the right sole's origin, in world axes [m/s].
+    pub velocity: Vector3<f64>,
+    /// [rad]; the unpowered two stay zero: the base pose says what they would.
+    pub angles: JointVector,
+    /// [rad/s]
+    pub rates: JointVector,
+}
+
+impl RobotState {
+    /// In a posture and moving with its rates, the right sole flat and at rest at the given height [m] over O.
+    pub fn on_right_foot(motion: &Motion, height: f64) -> Self {
+        Self {
+            sole_to_world: Isometry3::translation(0.0, 0.0, height),
+            angular_rate: Vector3::zeros(),
+            velocity: Vector3::zeros(),
+            angles: motion.angles,
+            rates: motion.rates,
+        }
+    }
+
+    /// Moves on by `step` [s]: rates first, then angles with the new rates (semi-implicit Euler).
+    pub fn integrate(&mut self, accelerations: &Accelerations, step: f64) {
+        self.rates += accelerations.joints * step;
+        self.angles += self.rates * step;
+        self.angular_rate += accelerations.base_angular * step;
+        self.velocity += accelerations.base_linear * step;
+        let turn = UnitQuaternion::from_scaled_axis(self.angular_rate * step);
+        self.sole_to_world = Isometry3::from_parts(
+            Translation3::from(self.sole_to_world.translation.vector + self.velocity * step),
+            UnitQuaternion::new_normalize((turn * self.sole_to_world.rotation).into_inner()),
+        );
+    }
+
+    /// Poses of all links in the world.
+    pub fn kinematics(&self, tree: &Tree) -> Kinematics {
+        let mut kinematics = Kinematics::default();
+        kinematics.float(tree, &self.sole_to_world, &self.angles);
+        kinematics
+    }
+
+    /// Pose of a sole in the world.
+    pub fn sole(&self, tree: &Tree, mechanism: &Mechanism, side: Side) -> Isometry3<f64> {
+        self.kinematics(tree).sole_to_world(mechanism, side)
+    }
+
+    /// Whether every number is finite.
+    pub fn is_finite(&self) -> bool {
+        let base = self.sole_to_world.translation.vector + self.angular_rate + self.velocity;
+        base.iter().all(|value| value.is_finite()) && self.angles.is_finite() && self.rates.is_finite()
+    }
+}
