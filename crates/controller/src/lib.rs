@@ -1,1 +1,22 @@
-//! What to do this tick: tick, modes, limits, faults; no clock, no I/O, no allocation.
+//! What to do this tick: estimate, walk, limit, report.
+//!
+//! [`Controller::tick`] takes the period's length, the newest measurement and at most one request, and gives the setpoint
+//! and a report. It never allocates, blocks, logs or fails: bad input becomes a [`Fault`] in the report, and the same
+//! inputs give the same bits. There is no clock and no I/O here.
+
+mod controller;
+mod fault;
+mod guard;
+mod measurement;
+mod mode;
+mod parameters;
+mod report;
+mod watch;
+
+pub use controller::Controller;
+pub use fault::{Fault, Faults};
+pub use guard::Guard;
+pub use measurement::Measurement;
+pub use mode::{Intent, Mode};
+pub use parameters::{Parameters, WatchParameters};
+pub use report::{Answer, Refusal, Setpoint, TickReport};

@@ -88,4 +88,26 @@ impl Kinematics {
         }
         moment / tree.mass
     }
+
+    /// Velocity of the centre of mass [m/s] and angular rate of every link [rad/s], the right sole at rest.
+    pub fn com_velocity(&self, tree: &Tree, rates: &JointVector) -> (Vector3<f64>, PerJoint<Vector3<f64>>) {
+        // About the common origin each joint moves what it carries with `rate · (axis, origin × axis)`.
+        let mut angular = PerJoint([Vector3::zeros(); Joint::COUNT]);
+        let mut linear = angular;
+        let mut momentum = Vector3::zeros();
+        for (link, node) in tree.nodes.iter() {
+            let spin = self.axis[link] * rates[link];
+            let (parent_angular, parent_linear) = match node.parent {
+                Some(parent) => (angular[parent], linear[parent]),
+                None => (Vector3::zeros(), Vector3::zeros()),
+            };
+            angular[link] = parent_angular + spin;
+            linear[link] = parent_linear + self.origin[link].cross(&spin);
+            if let Some(body) = &node.body {
+                let com = self.origin[link] + self.rotation[link] * body.com;
+                momentum += body.mass * (linear[link] + angular[link].cross(&com));
+            }
+        }
+        (momentum / tree.mass, angular)
+    }
 }

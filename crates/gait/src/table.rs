@@ -1,6 +1,8 @@
 //! The nominal half-step as a table: one row per interval boundary.
 
-use model::{JointVector, Motion, Wrench};
+use model::{Joint, JointVector, Mirror, Motion, PerJoint, Wrench};
+
+use crate::hermite::Hermite;
 
 /// One single-support half-step on the right foot, at `n_int + 1` equally spaced instants from 0 to T.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,4 +30,163 @@ pub struct NominalRow {
     pub ground_gravity: Wrench,
     /// Wrench of the ground about O in support axes that the motion itself needs.
     pub ground_dynamic: Wrench,
+}
+
+/// Why a table is no nominal half-step.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum TableError {
+    /// An interval needs a row at each end.
+    #[error("the table has {0} rows: a half-step needs at least 2, one at each end")]
+    TooFewRows(usize),
+    /// `T` is no length of time.
+    #[error("the half-step's duration is {0} s: it must be finite and positive")]
+    DurationNotPositive(f64),
+    /// NaN or infinity.
+    #[error("row {0} holds a value that is not a finite number")]
+    NotFinite(usize),
+    /// The swap would jump in angle or rate.
+    #[error(
+        "the end does not mirror the start: {quantity} of joint {} ({}) ends as {found}, mirrored, and starts as \
+         {expected}; the two must agree to {tolerance:e}",
+        joint.number(), joint.name(), tolerance = NominalTable::SWAP_TOLERANCE
+    )]
+    EndDoesNotMirrorStart {
+        /// The joint of the start.
+        joint: Joint,
+        /// `angle` or `rate`.
+        quantity: &'static str,
+        /// The mirrored end's value [rad or rad/s].
+        found: f64,
+        /// The start's value [rad or rad/s].
+        expected: f64,
+    },
+}
+
+impl NominalTable {
+    /// How far the mirrored end may be from the start [rad and rad/s] (DESIGN §3).
+    pub const SWAP_TOLERANCE: f64 = 1e-6;
+
+    /// `n_int`: how many intervals the half-step is divided into.
+    pub fn intervals(&self) -> usize {
+        self.rows.len() - 1
+    }
+
+    /// Whether it is a half-step that can be repeated from foot to foot: finite, at least one interval, the end mirrors
+    /// the start in angle and rate. (Accelerations may jump at the swap, as the ZMP jumps from foot to foot.)
+    pub fn check(&self, mirror: &Mirror) -> Result<(), TableError> {
+        if !(self.duration.is_finite() && self.duration > 0.0) {
+            return Err(TableError::DurationNotPositive(self.duration));
+        }
+        let [first, .., last] = self.rows.as_slice() else {
+            return Err(TableError::TooFewRows(self.rows.len()));
+        };
+        if let Some(row) = self.rows.iter().position(|row| !row.is_finite()) {
+            return Err(TableError::NotFinite(row));
+        }
+        let (start, end) = (first.motion, last.motion.mirrored(mirror));
+        for (quantity, start, end) in [("angle", start.angles, end.angles), ("rate", start.rates, end.rates)] {
+            for (joint, &expected) in start.iter() {
+                let found = end[joint];
+                if (found - expected).abs() > Self::SWAP_TOLERANCE {
+                    return Err(TableError::EndDoesNotMirrorStart { joint, quantity, found, expected });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The motion at `progress` from 0 to 1, at nominal speed: angles are twice continuously differentiable across the
+    /// rows, and rates and accelerations are their exact derivatives. Progress outside 0 to 1 counts as the nearer end.
+    ///
+    /// Needs a table that passes [`check`](Self::check), as all lookups do.
+    pub fn at(&self, progress: f64) -> Motion {
+        let (start, end, x) = self.around(progress);
+        let hermite = Hermite::new(x, self.duration / self.intervals() as f64);
+        let (start, end) = (&start.motion, &end.motion);
+        let jets = PerJoint::from_fn(|joint| {
+            hermite.between(
+                [start.angles[joint], start.rates[joint], start.accelerations[joint]],
+                [end.angles[joint], end.rates[joint], end.accelerations[joint]],
+            )
+        });
+        Motion {
+            angles: PerJoint::from_fn(|joint| jets[joint][0]),
+            rates: PerJoint::from_fn(|joint| jets[joint][1]),
+            accelerations: PerJoint::from_fn(|joint| jets[joint][2]),
+        }
+    }
+
+    /// The wrench of the ground about O, in support axes, at `progress` and a constant `speed` `c`: the gravity part
+    /// plus `c²` times the dynamic part (DESIGN §4.2, eq. 4), linear between rows.
+    pub fn ground(&self, progress: f64, speed: f64) -> Wrench {
+        let (start, end, x) = self.around(progress);
+        let at = |row: &NominalRow| row.ground_gravity + row.ground_dynamic * (speed * speed);
+        at(start) * (1.0 - x) + at(end) * x
+    }
+
+    /// The torques of all joints [N·m] at `progress` and a constant `speed` `c`: the gravity part plus `c²` times the
+    /// dynamic part (DESIGN §4.2, eq. 4), linear between rows.
+    pub fn torques(&self, progress: f64, speed: f64) -> JointVector {
+        let (start, end, x) = self.around(progress);
+        let at = |row: &NominalRow| row.torque_gravity + row.torque_dynamic * (speed * speed);
+        at(start) * (1.0 - x) + at(end) * x
+    }
+
+    /// The rows before and after `progress`, and how far it is from the one to the other, 0 to 1.
+    fn around(&self, progress: f64) -> (&NominalRow, &NominalRow, f64) {
+        let place = progress.clamp(0.0, 1.0) * self.intervals() as f64;
+        let interval = (place as usize).min(self.intervals() - 1);
+        (&self.rows[interval], &self.rows[interval + 1], place - interval as f64)
+    }
+}
+
+impl NominalRow {
+    /// Whether no value is NaN or infinite.
+    pub fn is_finite(&self) -> bool {
+        self.motion.is_finite()
+            && self.torque_gravity.is_finite()
+            && self.torque_dynamic.is_finite()
+            && self.ground_gravity.is_finite()
+            && self.ground_dynamic.is_finite()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::*;
+
+    fn row(angle: f64, force: f64) -> NominalRow {
+        let mut motion = Motion::default();
+        motion.angles[Joint::RightKnee] = angle;
+        let wrench = |x| Wrench { force: Vector3::new(0.0, 0.0, x), moment: Vector3::zeros() };
+        NominalRow {
+            motion,
+            torque_gravity: JointVector::unit(Joint::RightKnee) * force,
+            torque_dynamic: JointVector::unit(Joint::RightKnee) * 10.0,
+            ground_gravity: wrench(force),
+            ground_dynamic: wrench(10.0),
+        }
+    }
+
+    fn table() -> NominalTable {
+        let rows = vec![row(0.1, 1.0), row(0.3, 2.0), row(0.2, 4.0)];
+        NominalTable { duration: 0.6, rows, made_by: "a test".into(), mechanism: 1 }
+    }
+
+    #[test]
+    fn rows_are_met_exactly_and_the_ends_hold() {
+        let table = table();
+        for (progress, row) in [(-1.0, 0), (0.0, 0), (0.5, 1), (1.0, 2), (7.0, 2)] {
+            assert_eq!(table.at(progress), table.rows[row].motion, "at progress {progress}");
+        }
+    }
+
+    #[test]
+    fn the_dynamic_part_grows_with_the_square_of_the_speed() {
+        let table = table();
+        assert!((table.ground(0.25, 2.0).force.z - (1.5 + 4.0 * 10.0)).abs() < 1e-12);
+        assert!((table.torques(0.75, 3.0)[Joint::RightKnee] - (3.0 + 9.0 * 10.0)).abs() < 1e-12);
+    }
 }

@@ -2,9 +2,11 @@
 //!
 //! Facts only: nothing here moves. Angles are radians, lengths metres; degrees and joint numbers exist in text only.
 
+pub mod config;
 pub mod frame;
 mod joint;
 mod mechanism;
+mod mechanism_file;
 mod mirror;
 mod motion;
 mod per_joint;

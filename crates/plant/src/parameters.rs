@@ -1,5 +1,8 @@
 //! What can be set about the simulated robot beyond its mechanism.
 
+use std::path::Path;
+
+use model::config::{self, ConfigErrors, Document, Table};
 use model::{Joint, PerJoint};
 
 /// All of it; `config/plant.toml`.
@@ -13,6 +16,65 @@ pub struct Parameters {
     pub servo: PerJoint<ServoParameters>,
     /// The sensors' imperfections.
     pub sensors: SensorParameters,
+}
+
+impl Parameters {
+    /// Reads a plant file.
+    ///
+    /// # Errors
+    /// When the file cannot be read, and every key that is unknown, missing or out of range.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, ConfigErrors> {
+        let path = path.as_ref();
+        Self::from_toml(&config::read(path)?, &path.display().to_string())
+    }
+
+    /// Reads the text of a plant file; `file` is its name for messages.
+    ///
+    /// # Errors
+    /// Every key that is unknown, missing or out of range.
+    pub fn from_toml(text: &str, file: &str) -> Result<Self, ConfigErrors> {
+        let document = Document::parse(text, file)?;
+        let root = document.root();
+        let servos = root.table("servo");
+        let (legs_and_waist, arms) = (servo(&servos.table("legs_and_waist")), servo(&servos.table("arms")));
+        let parameters = Self {
+            steps_per_period: root.integer("steps_per_period", 1, 100) as u32,
+            contact: contact(&root.table("contact")),
+            servo: PerJoint::from_fn(|joint| if joint >= Joint::RightShoulder { arms } else { legs_and_waist }),
+            sensors: sensors(&root.table("sensors")),
+        };
+        document.finish(parameters)
+    }
+}
+
+fn contact(table: &Table) -> ContactParameters {
+    ContactParameters {
+        stiffness: table.number("stiffness_n_per_m").positive(),
+        damping: table.number("damping_n_s_per_m").not_negative(),
+        stiffness_tangential: table.number("stiffness_tangential_n_per_m").positive(),
+        damping_tangential: table.number("damping_tangential_n_s_per_m").not_negative(),
+        friction: table.number("friction").not_negative(),
+    }
+}
+
+fn servo(table: &Table) -> ServoParameters {
+    ServoParameters {
+        stiffness: table.number("stiffness_n_m_per_rad").not_negative(),
+        damping: table.number("damping_n_m_s_per_rad").not_negative(),
+    }
+}
+
+fn sensors(table: &Table) -> SensorParameters {
+    SensorParameters {
+        delay_periods: table.integer("delay_periods", 0, crate::Sensors::DELAY_MAX as u64) as u32,
+        angle_resolution: table.angle("angle_resolution_deg").not_negative(),
+        rate_noise: table.angle("rate_noise_deg_per_s").not_negative(),
+        force_noise: table.number("force_noise_n").not_negative(),
+        moment_noise: table.number("moment_noise_n_m").not_negative(),
+        orientation_noise: table.angle("orientation_noise_deg").not_negative(),
+        angular_rate_noise: table.angle("angular_rate_noise_deg_per_s").not_negative(),
+        current_noise: table.number("current_noise_a").not_negative(),
+    }
 }
 
 /// Ground and sole, per corner.
@@ -85,12 +147,12 @@ impl Default for SensorParameters {
     fn default() -> Self {
         Self {
             delay_periods: 1,
-            angle_resolution: 2.0e-5,
-            rate_noise: 5.0e-3,
+            angle_resolution: 0.001_f64.to_radians(),
+            rate_noise: 0.3_f64.to_radians(),
             force_noise: 2.0,
             moment_noise: 0.2,
-            orientation_noise: 1.0e-3,
-            angular_rate_noise: 5.0e-3,
+            orientation_noise: 0.05_f64.to_radians(),
+            angular_rate_noise: 0.3_f64.to_radians(),
             current_noise: 0.05,
         }
     }
@@ -103,9 +165,7 @@ impl Default for Parameters {
         Self {
             steps_per_period: 4,
             contact: ContactParameters::default(),
-            servo: PerJoint::from_fn(
-                |joint| if joint.index() >= Joint::RightShoulder.index() { arms } else { legs_and_waist },
-            ),
+            servo: PerJoint::from_fn(|joint| if joint >= Joint::RightShoulder { arms } else { legs_and_waist }),
             sensors: SensorParameters::default(),
         }
     }

@@ -1,0 +1,58 @@
+//! What the asked motion needs, by inverse dynamics: joint torques, ZMP, centre of mass.
+
+use dynamics::{NewtonEuler, SupportPolygon, Tree, zmp};
+use model::{JointVector, Mechanism, Motion};
+use nalgebra::Vector2;
+
+use crate::CentreOfMass;
+
+/// What a motion needs of drives and ground if the bearing sole stays flat.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    inverse: NewtonEuler,
+    sole: SupportPolygon,
+    /// Reflected rotor inertias [kg·m²].
+    rotors: JointVector,
+    /// Torques of the drives, rotors included [N·m].
+    pub torques: JointVector,
+    /// Where the ground must push, relative to O [m]; outside the sole it is fictitious.
+    pub zmp: Vector2<f64>,
+    /// Signed distance of that point to the sole's edge [m].
+    pub margin: f64,
+    /// Of the asked motion.
+    pub centre_of_mass: CentreOfMass,
+}
+
+impl Plan {
+    /// Nothing planned yet: the robot standing straight.
+    pub fn new(mechanism: &Mechanism, tree: &Tree) -> Self {
+        let rotors = model::PerJoint::from_fn(|joint| {
+            mechanism.links[joint].motor.map_or(0.0, |motor| motor.reflected_inertia())
+        });
+        let kinematics = dynamics::Kinematics::standing(tree, &JointVector::ZERO);
+        let mut plan = Self {
+            inverse: NewtonEuler::default(),
+            sole: SupportPolygon::hull(mechanism.sole.corners().map(|corner| corner.xy())),
+            rotors,
+            torques: JointVector::ZERO,
+            zmp: Vector2::zeros(),
+            margin: 0.0,
+            centre_of_mass: CentreOfMass::of_motion(tree, &kinematics, &JointVector::ZERO),
+        };
+        plan.update(tree, &Motion::default());
+        plan
+    }
+
+    /// What `motion`, told in support coordinates, needs.
+    pub fn update(&mut self, tree: &Tree, motion: &Motion) {
+        self.inverse.stand(tree, motion);
+        self.torques = self.inverse.torques
+            + motion.accelerations.zip_with(&self.rotors, |acceleration, rotor| acceleration * rotor);
+        // A motion that needs no ground has its point infinitely far away; the last one stands for it.
+        if let Some(point) = zmp(&self.inverse.ground) {
+            self.zmp = point;
+        }
+        self.margin = self.sole.margin(self.zmp);
+        self.centre_of_mass = CentreOfMass::of_motion(tree, &self.inverse.kinematics, &motion.rates);
+    }
+}

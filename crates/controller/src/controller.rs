@@ -1,0 +1,211 @@
+//! The controller: one tick, read from top to bottom.
+
+use std::sync::Arc;
+
+use balance::{CentreOfMass, Feedback, Ground, Plan, Sensed, ZmpEstimator};
+use dynamics::{Kinematics, Tree};
+use gait::{Admission, NominalTable, Request, Start, Verdict, Walk, WalkError};
+use model::{Mechanism, Motion, Side};
+
+use crate::mode::Holding;
+use crate::watch::Watch;
+use crate::{Answer, Fault, Faults, Guard, Intent, Measurement, Mode, Parameters, Refusal, Setpoint, TickReport};
+
+/// The state of the controller. Everything is made in [`Controller::new`]; a tick allocates nothing.
+#[derive(Clone, Debug)]
+pub struct Controller {
+    mechanism: Mechanism,
+    tree: Tree,
+    walk: Walk,
+    watch: Watch,
+    kinematics: Kinematics,
+    zmp_estimator: ZmpEstimator,
+    ground: Ground,
+    plan: Plan,
+    feedback: Feedback,
+    guard: Guard,
+    mode: Mode,
+    intent: Intent,
+    /// The stop under way, while holding.
+    holding: Option<Holding>,
+}
+
+impl Controller {
+    /// A controller that is about to begin its first half-step, with everything checked that could go wrong later.
+    ///
+    /// # Errors
+    /// See [`WalkError`].
+    pub fn new(
+        mechanism: &Mechanism,
+        table: Arc<NominalTable>,
+        parameters: &Parameters,
+        start: Start,
+    ) -> Result<Self, WalkError> {
+        let walk = Walk::new(table, mechanism, &parameters.gait, start)?;
+        let tree = Tree::new(mechanism);
+        let mut plan = Plan::new(mechanism, &tree);
+        plan.update(&tree, &walk.motion());
+        Ok(Self {
+            watch: Watch::new(parameters.watch),
+            kinematics: Kinematics::default(),
+            zmp_estimator: ZmpEstimator::new(mechanism, parameters.balance.zmp),
+            ground: Ground { zmp: None, margin: f64::NEG_INFINITY, loads: [0.0; 2] },
+            feedback: Feedback::new(mechanism, parameters.balance.feedback),
+            guard: Guard::new(mechanism, &walk.physical_motion().angles),
+            mode: Mode::Walking,
+            intent: Intent::Walk,
+            holding: None,
+            mechanism: mechanism.clone(),
+            tree,
+            walk,
+            plan,
+        })
+    }
+
+    /// One period.
+    ///
+    /// * `dt` – its length [s]
+    /// * `measurement` – the newest one, if a new one came since the last tick
+    /// * `request` – at most one per tick, with what the operator intends
+    pub fn tick(
+        &mut self,
+        dt: f64,
+        measurement: Option<&Measurement>,
+        request: Option<(&Request, Option<Intent>)>,
+    ) -> TickReport {
+        let mut faults = Faults::default();
+        let answer = request.map(|(request, intent)| self.answer(request, intent));
+
+        // Where are we?
+        let centre_of_mass = self.estimate(measurement, dt, &mut faults);
+
+        // What does balance ask for?
+        if self.mode != Mode::Walking {
+            self.feedback.release();
+        }
+        let error_known = centre_of_mass.filter(|_| self.mode == Mode::Walking);
+        self.feedback.update(&self.plan.centre_of_mass, error_known.as_ref(), self.plan.zmp, dt);
+
+        // What does the walk ask for?
+        let asked = self.advance(dt);
+
+        // What may the joints be given?
+        let setpoint = self.limit(&asked, dt, &mut faults);
+
+        TickReport {
+            setpoint,
+            mode: self.mode,
+            half_step: self.walk.half_step(),
+            command: self.walk.command(),
+            speed: self.walk.speed().state().value,
+            zmp_in_support: self.ground.zmp,
+            zmp_planned: self.plan.zmp,
+            margin: self.ground.margin,
+            lean: self.feedback.lean,
+            faults,
+            answer,
+        }
+    }
+
+    /// Absorbs a measurement; gives the centre of mass as sensed, if something good was sensed.
+    fn estimate(&mut self, measurement: Option<&Measurement>, dt: f64, faults: &mut Faults) -> Option<CentreOfMass> {
+        let good = self.watch.update(measurement, dt, faults);
+        if self.watch.is_stale() {
+            self.intent = Intent::Hold;
+            self.feedback.release();
+        }
+        let (measurement, up_in_trunk) = good?;
+        if self.watch.has_fallen(&up_in_trunk) {
+            faults.insert(Fault::Fallen);
+            self.mode = Mode::Fallen;
+        }
+
+        let sensed = Sensed::from_support(
+            self.walk.half_step().support,
+            self.walk.mirror(),
+            &measurement.angles,
+            &measurement.rates,
+            &measurement.feet,
+            up_in_trunk,
+            measurement.angular_rate,
+        );
+        self.kinematics.stand(&self.tree, &sensed.angles);
+        self.ground = self.zmp_estimator.update(&sensed, &self.kinematics, &self.mechanism, dt);
+        if self.ground.zmp.is_none() {
+            faults.insert(Fault::InTheAir);
+            self.feedback.release();
+            return None;
+        }
+        Some(CentreOfMass::sensed(&self.tree, &self.kinematics, &sensed))
+    }
+
+    /// Moves on by a period and gives what the mode asks for, in support coordinates, feedback included.
+    fn advance(&mut self, dt: f64) -> Motion {
+        let motion = match (self.mode, &mut self.holding) {
+            (Mode::Walking, _) => {
+                if self.walk.advance(dt) {
+                    self.swap();
+                }
+                self.walk.motion()
+            }
+            (Mode::Holding, Some(holding)) => holding.advance(&self.tree, dt),
+            _ => return Motion::default(),
+        };
+        self.plan.update(&self.tree, &motion);
+        motion + *self.feedback.offsets()
+    }
+
+    /// A new half-step has begun, told from the other foot.
+    fn swap(&mut self) {
+        self.feedback.swap(self.walk.mirror());
+        self.zmp_estimator.swap();
+        if self.intent != Intent::Walk {
+            let pendulum_rate = self.plan.centre_of_mass.pendulum_rate();
+            self.holding = Some(Holding::begin(&self.tree, &self.walk.motion(), pendulum_rate));
+            self.mode = Mode::Holding;
+        }
+    }
+
+    /// Brings what is asked back to physical joints and through the guard.
+    fn limit(&mut self, asked: &Motion, dt: f64, faults: &mut Faults) -> Setpoint {
+        if self.mode == Mode::Fallen {
+            return self.guard.hold();
+        }
+        match self.walk.half_step().support {
+            Side::Right => self.guard.limit(asked, &self.plan.torques, dt, faults),
+            Side::Left => {
+                let mirror = self.walk.mirror();
+                self.guard.limit(&asked.mirrored(mirror), &mirror.apply(&self.plan.torques), dt, faults)
+            }
+        }
+    }
+
+    /// Answers a request: the walk admits what changes it, the mode says whether there is a walk to change.
+    fn answer(&mut self, request: &Request, intent: Option<Intent>) -> Answer {
+        let refusal = match (self.mode, intent) {
+            (Mode::Fallen, _) => Some(Refusal::Fallen),
+            (Mode::Holding, None | Some(Intent::Walk)) => Some(Refusal::Standing),
+            _ => None,
+        };
+        if refusal.is_some() {
+            let half_step = self.walk.half_step().index;
+            let admission = Admission {
+                verdict: Verdict::Refused,
+                reasons: [None; 3],
+                granted: self.walk.command(),
+                effect_half_step: half_step,
+            };
+            return Answer { admission, intent: self.intent, refusal };
+        }
+        let mut admission = self.walk.admit(request);
+        if admission.verdict != Verdict::Refused
+            && let Some(intent) = intent
+        {
+            if self.mode == Mode::Walking && intent != Intent::Walk {
+                admission.effect_half_step = admission.effect_half_step.max(self.walk.half_step().index + 1);
+            }
+            self.intent = intent;
+        }
+        Answer { admission, intent: self.intent, refusal }
+    }
+}

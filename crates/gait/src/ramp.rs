@@ -1,0 +1,144 @@
+//! Ramps: how an offset or a speed goes from what it is to what is asked (DESIGN §4.4).
+//!
+//! The paper adds equal increments: [`RampKind::Linear`], which jumps in rate at both ends. The default is a quintic that
+//! starts from the value, rate and acceleration there are and comes to rest at its end: smooth whatever is commanded.
+
+/// The shape of a ramp.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RampKind {
+    /// Equal increments, as in the paper: continuous in value only.
+    Linear,
+    /// Continuous in value, rate and acceleration.
+    #[default]
+    Quintic,
+}
+
+/// A value with its first and second derivative, by whatever the ramp runs over.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RampState {
+    /// The value itself.
+    pub value: f64,
+    /// Its first derivative.
+    pub rate: f64,
+    /// Its second derivative.
+    pub acceleration: f64,
+}
+
+impl RampState {
+    /// At rest at a value.
+    pub const fn at_rest(value: f64) -> Self {
+        Self { value, rate: 0.0, acceleration: 0.0 }
+    }
+
+    /// The same with derivatives by another variable of which `dx` is the derivative: by time, when `dx` is how much of
+    /// the ramp passes in a second.
+    pub fn by(self, dx: f64) -> Self {
+        Self { value: self.value, rate: self.rate * dx, acceleration: self.acceleration * dx * dx }
+    }
+
+    /// The mirror image of an offset that changes its sign at the swap.
+    pub fn negated(self) -> Self {
+        Self { value: -self.value, rate: -self.rate, acceleration: -self.acceleration }
+    }
+}
+
+/// A polynomial in `x` from 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ramp {
+    /// Of 1, x, x² … x⁵.
+    coefficients: [f64; 6],
+    /// At x = 1, without the rounding of the polynomial: what is taken out is out exactly.
+    end: RampState,
+}
+
+impl Ramp {
+    /// From what there is to `to`. A linear ramp takes over the value only.
+    pub fn new(kind: RampKind, from: RampState, to: f64) -> Self {
+        match kind {
+            RampKind::Linear => Self::linear(from.value, to),
+            RampKind::Quintic => Self::quintic(from, to),
+        }
+    }
+
+    /// Constant.
+    pub const fn hold(value: f64) -> Self {
+        Self { coefficients: [value, 0.0, 0.0, 0.0, 0.0, 0.0], end: RampState::at_rest(value) }
+    }
+
+    /// In equal increments from `from` to `to`.
+    pub fn linear(from: f64, to: f64) -> Self {
+        let rate = to - from;
+        let coefficients = [from, rate, 0.0, 0.0, 0.0, 0.0];
+        Self { coefficients, end: RampState { value: to, rate, acceleration: 0.0 } }
+    }
+
+    /// From a value, rate and acceleration to rest at `to`.
+    pub fn quintic(from: RampState, to: f64) -> Self {
+        let RampState { value, rate, acceleration } = from;
+        let step = to - value;
+        let coefficients = [
+            value,
+            rate,
+            0.5 * acceleration,
+            10.0 * step - 6.0 * rate - 1.5 * acceleration,
+            -15.0 * step + 8.0 * rate + 1.5 * acceleration,
+            6.0 * step - 3.0 * rate - 0.5 * acceleration,
+        ];
+        Self { coefficients, end: RampState::at_rest(to) }
+    }
+
+    /// At `x`; beyond 1 it is as at 1.
+    pub fn at(&self, x: f64) -> RampState {
+        if x >= 1.0 {
+            return self.end;
+        }
+        let [c0, c1, c2, c3, c4, c5] = self.coefficients;
+        RampState {
+            value: c0 + x * (c1 + x * (c2 + x * (c3 + x * (c4 + x * c5)))),
+            rate: c1 + x * (2.0 * c2 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5))),
+            acceleration: 2.0 * c2 + x * (6.0 * c3 + x * (12.0 * c4 + x * 20.0 * c5)),
+        }
+    }
+
+    /// Where it ends: at x = 1.
+    pub fn end(&self) -> RampState {
+        self.end
+    }
+
+    /// The integral of the value from 0 to `x` ≤ 1.
+    pub fn integral(&self, x: f64) -> f64 {
+        let [c0, c1, c2, c3, c4, c5] = self.coefficients;
+        x * (c0 + x * (c1 / 2.0 + x * (c2 / 3.0 + x * (c3 / 4.0 + x * (c4 / 5.0 + x * c5 / 6.0)))))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FROM: RampState = RampState { value: 0.3, rate: -2.0, acceleration: 5.0 };
+
+    #[test]
+    fn a_quintic_starts_as_told_and_comes_to_rest() {
+        let ramp = Ramp::quintic(FROM, 1.1);
+        assert_eq!(ramp.at(0.0), FROM);
+        assert_eq!(ramp.at(1.0), RampState::at_rest(1.1));
+        let almost = ramp.at(1.0 - 1e-12);
+        assert!((almost.value - 1.1).abs() < 1e-12 && almost.rate.abs() < 1e-10 && almost.acceleration.abs() < 1e-9);
+    }
+
+    #[test]
+    fn derivatives_and_integral_agree_with_differences() {
+        let h = 1e-5;
+        for ramp in [Ramp::quintic(FROM, 1.1), Ramp::linear(0.2, -0.4), Ramp::hold(3.0)] {
+            for step in 1..10 {
+                let x = f64::from(step) / 10.0;
+                let (before, here, after) = (ramp.at(x - h), ramp.at(x), ramp.at(x + h));
+                assert!(((after.value - before.value) / (2.0 * h) - here.rate).abs() < 1e-7);
+                assert!(((after.rate - before.rate) / (2.0 * h) - here.acceleration).abs() < 1e-6);
+                let slope = (ramp.integral(x + h) - ramp.integral(x - h)) / (2.0 * h);
+                assert!((slope - here.value).abs() < 1e-7);
+            }
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! Turning (DESIGN §4.1, paper eqs. 1 and 2): the swing foot lands turned out by `α`.
+//!
+//! Half of `α` goes into either hip yaw, joints 7 and 10. One half-step deflects (eq. 1), the next restores (eq. 2), so
+//! that the feet are parallel before the next deflection begins: a full step turns the walk by `α`, positive to the left.
+//! Turning left deflects while standing on the right foot, turning right while standing on the left: the foot always
+//! turns *out*. Hip yaw keeps its sign at the swap, so in canonical coordinates either is a positive offset `|α|/2`.
+//!
+//! The yaw is about the pelvis' vertical as long as pitch and roll add up to zero from the sole to the hip yaw. They do
+//! in pitch while the nominal's pelvis is upright. Roll lies beyond the yaw, at the hip: while the support leg leans
+//! sideways the swinging sole tilts by up to about lean times `α` (tests/a_full_step_turns_the_walk.rs).
+
+use model::{Joint, JointVector, Mechanism, Motion, Side};
+
+use crate::{Ramp, RampKind, RampState, WalkError};
+
+/// What a half-step does about the turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TurnPhase {
+    /// Feet parallel throughout.
+    Straight,
+    /// The swing foot turns out.
+    Deflect,
+    /// The deflection is taken out again.
+    Restore,
+}
+
+/// The turn in force and its offset in the present half-step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turn {
+    /// One on each hip yaw, with the sign that turns the feet apart.
+    apart: JointVector,
+    kind: RampKind,
+    angle: f64,
+    phase: TurnPhase,
+    /// Angle of either hip over progress [rad].
+    ramp: Ramp,
+}
+
+impl Turn {
+    /// Walking straight on.
+    ///
+    /// # Errors
+    /// [`WalkError::HipYawNotVertical`] when joint 7 or 10 does not turn about z.
+    pub fn new(mechanism: &Mechanism, kind: RampKind) -> Result<Self, WalkError> {
+        let mut apart = JointVector::ZERO;
+        for joint in [Joint::RightHipYaw, Joint::LeftHipYaw] {
+            let axis = mechanism.links[joint].axis;
+            if axis.z.abs() < 1.0 - 1e-9 {
+                return Err(WalkError::HipYawNotVertical { joint, axis: axis.into_inner() });
+            }
+            apart[joint] = axis.z.signum();
+        }
+        Ok(Self { apart, kind, angle: 0.0, phase: TurnPhase::Straight, ramp: Ramp::hold(0.0) })
+    }
+
+    /// `α` in force: by how much a full step turns the walk [rad], positive to the left.
+    pub fn angle(&self) -> f64 {
+        self.angle
+    }
+
+    /// What the present half-step does.
+    pub fn phase(&self) -> TurnPhase {
+        self.phase
+    }
+
+    /// Turns by `angle` from the next deflecting half-step on.
+    pub fn request(&mut self, angle: f64) {
+        self.angle = angle;
+    }
+
+    /// How many half-steps from the present one, on `support`, a change to `angle` takes effect: where the next deflection
+    /// for it begins; for a change to straight on, where the next deflection is left out.
+    pub fn delay(&self, angle: f64, support: Side) -> u64 {
+        let (delay, foot) = match self.phase {
+            TurnPhase::Deflect => (2, support),
+            TurnPhase::Straight | TurnPhase::Restore => (1, support.other()),
+        };
+        let deflecting = deflecting_support(if angle == 0.0 { self.angle } else { angle });
+        if deflecting.is_some_and(|deflecting| deflecting != foot) { delay + 1 } else { delay }
+    }
+
+    /// Begins a half-step on `support`. After a deflection this restores, whatever is asked.
+    pub fn begin_half_step(&mut self, support: Side) {
+        self.phase = match self.phase {
+            TurnPhase::Deflect => TurnPhase::Restore,
+            TurnPhase::Straight | TurnPhase::Restore if deflecting_support(self.angle) == Some(support) => {
+                TurnPhase::Deflect
+            }
+            TurnPhase::Straight | TurnPhase::Restore => TurnPhase::Straight,
+        };
+        let to = if self.phase == TurnPhase::Deflect { 0.5 * self.angle.abs() } else { 0.0 };
+        self.ramp = Ramp::new(self.kind, self.ramp.end(), to);
+    }
+
+    /// The angle of either hip at `progress` [rad], derivatives by progress.
+    pub fn per_hip(&self, progress: f64) -> RampState {
+        self.ramp.at(progress)
+    }
+
+    /// The offsets at `progress` in canonical coordinates, at nominal speed in a half-step of `duration` [s].
+    pub fn at(&self, progress: f64, duration: f64) -> Motion {
+        let per_hip = self.per_hip(progress).by(duration.recip());
+        Motion {
+            angles: self.apart * per_hip.value,
+            rates: self.apart * per_hip.rate,
+            accelerations: self.apart * per_hip.acceleration,
+        }
+    }
+}
+
+/// The foot to stand on while the other one turns out; none when there is no turn.
+fn deflecting_support(angle: f64) -> Option<Side> {
+    if angle > 0.0 {
+        Some(Side::Right)
+    } else if angle < 0.0 {
+        Some(Side::Left)
+    } else {
+        None
+    }
+}

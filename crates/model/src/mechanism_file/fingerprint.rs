@@ -1,0 +1,38 @@
+//! The fingerprint: one number for everything physical about a mechanism.
+//!
+//! FNV-1a, 64 bits (Fowler, Noll, Vo; draft-eastlake-fnv), over the little-endian bytes of every number [`Mechanism`]
+//! holds, in the order of its fields and joints, in SI units. Names, comments and the order of the file's keys do not
+//! count; `-0` counts as `0`.
+
+use crate::{Joint, Mechanism};
+
+pub(super) fn of(mechanism: &Mechanism) -> u64 {
+    const OFFSET_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+    const PRIME: u64 = 0x0000_0100_0000_01b3;
+    let mut hash = OFFSET_BASIS;
+    let mut add = |value: f64| {
+        for byte in (value + 0.0).to_bits().to_le_bytes() {
+            hash = (hash ^ u64::from(byte)).wrapping_mul(PRIME);
+        }
+    };
+
+    let sole = mechanism.sole;
+    [sole.behind, sole.ahead, sole.half_width, sole.ankle_height].into_iter().for_each(&mut add);
+    for (_, link) in mechanism.links.iter() {
+        add(f64::from(link.parent.map_or(0, Joint::number)));
+        link.axis.iter().chain(link.origin.iter()).copied().for_each(&mut add);
+        add(link.body.mass);
+        link.body.com.iter().chain(link.body.inertia.iter()).copied().for_each(&mut add);
+        // What is there and what is not must not look alike.
+        add(f64::from(u8::from(link.limits.is_some())));
+        if let Some(limits) = link.limits {
+            [limits.angle_min, limits.angle_max, limits.rate_max].into_iter().for_each(&mut add);
+        }
+        add(f64::from(u8::from(link.motor.is_some())));
+        if let Some(motor) = link.motor {
+            let electric = [motor.resistance, motor.torque_constant, motor.voltage_max];
+            electric.into_iter().chain([motor.gear_ratio, motor.rotor_inertia]).for_each(&mut add);
+        }
+    }
+    hash
+}

@@ -1,0 +1,168 @@
+//! Checks that the robot is its own mirror image in the sagittal plane: the controller always stands on the right foot
+//! and mirrors the rest.
+//!
+//! In the legs the mirror also turns the chain round. A joint's partner sits at the other end of the mirrored link: the
+//! right shank hangs on the ankle, the left one on the knee.
+
+use nalgebra::Vector3;
+
+use crate::config::Table;
+use crate::{Joint, Mechanism, Mirror, Motor, PerJoint, partner};
+
+/// Lengths, masses and angles of the two sides may differ by this much, rounding of decimals only.
+const TOLERANCE: f64 = 1e-9;
+
+/// Notes everything that differs between right and left, at the joint with the higher number.
+pub(super) fn check(tables: &PerJoint<Table>, mechanism: &Mechanism) {
+    for joint in Joint::ALL {
+        if partner(joint) <= joint {
+            axis(joint, &tables[joint], mechanism);
+            origin(joint, &tables[joint], mechanism);
+        }
+        if linked_partner(joint) <= joint {
+            body(joint, &tables[joint], mechanism);
+        }
+    }
+    // Without mirror-symmetric axes no sign says what the range should be.
+    if let Some(mirror) = Mirror::new(mechanism) {
+        for joint in Joint::ALL.into_iter().filter(|joint| joint.is_powered() && partner(*joint) <= *joint) {
+            drive(joint, &tables[joint], mechanism, mirror.sign(joint));
+        }
+    }
+}
+
+fn axis(joint: Joint, table: &Table, mechanism: &Mechanism) {
+    let other = partner(joint);
+    let axis = mechanism.links[joint].axis;
+    let image = mechanism.links[other].axis;
+    let image = Vector3::new(-image.x, image.y, -image.z);
+    if axis.cross(&image).norm() > TOLERANCE {
+        let must = if other == joint {
+            "must be along or across y".to_string()
+        } else {
+            format!("must be ±{}, the mirror image of joint.{}.axis", list(image), other.name())
+        };
+        table.refuse("axis", &must);
+    }
+}
+
+fn origin(joint: Joint, table: &Table, mechanism: &Mechanism) {
+    let links = &mechanism.links;
+    let (model, image) = if joint.is_in_leg() {
+        // The link that joins this joint to its parent is the mirror image of the one that joins the partner to the
+        // joint after it.
+        let model = Joint::ALL[partner(joint).index() + 1];
+        (model, -across(links[model].origin))
+    } else if joint.is_powered() {
+        let plane = 2.0 * plane_of_parent(joint, mechanism);
+        (partner(joint), across(links[partner(joint)].origin) + Vector3::new(0.0, plane, 0.0))
+    } else {
+        return;
+    };
+    if (links[joint].origin - image).norm() > TOLERANCE {
+        let must = format!("must be {}, the mirror image of joint.{}.origin_m", list(image), model.name());
+        table.refuse("origin_m", &must);
+    }
+    let parents = [joint, partner(joint)].map(|joint| links[joint].parent.filter(|parent| *parent < joint));
+    if let [Some(own), Some(other)] = parents
+        && !joint.is_in_leg()
+        && own != linked_partner(other)
+    {
+        table.refuse("parent", &format!("must be \"{}\", as the mirror has it", linked_partner(other).name()));
+    }
+}
+
+fn body(joint: Joint, table: &Table, mechanism: &Mechanism) {
+    let other = linked_partner(joint);
+    let (own, model) = (mechanism.links[joint].body, mechanism.links[other].body);
+    let named = format!("as joint.{}", other.name());
+    if (own.mass - model.mass).abs() > TOLERANCE {
+        table.refuse("mass_kg", &format!("must be {} {named}", model.mass));
+    }
+    if own.mass == 0.0 || model.mass == 0.0 {
+        return;
+    }
+    if (own.inertia - model.inertia).norm() > TOLERANCE {
+        table.refuse("inertia_kg_m2", &format!("must be {} {named}", list(model.inertia)));
+    }
+    let image = across(model.com) + image_of_frame(other, mechanism);
+    if (own.com - image).norm() > TOLERANCE {
+        table.refuse("com_m", &format!("must be {}, the mirror image of joint.{}.com_m", list(image), other.name()));
+    }
+}
+
+fn drive(joint: Joint, table: &Table, mechanism: &Mechanism, sign: f64) {
+    let other = partner(joint);
+    let (own, model) = (&mechanism.links[joint], &mechanism.links[other]);
+    if let (Some(own), Some(model)) = (own.limits, model.limits) {
+        let ends = [sign * model.angle_min, sign * model.angle_max];
+        let image = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        if (own.angle_min - image[0]).abs() > TOLERANCE || (own.angle_max - image[1]).abs() > TOLERANCE {
+            let image = image.map(f64::to_degrees);
+            let must = format!(
+                "must be [{}, {}], the mirror image of joint.{}.range_deg",
+                decimal(image[0]),
+                decimal(image[1]),
+                other.name()
+            );
+            table.refuse("range_deg", &must);
+        }
+        if (own.rate_max - model.rate_max).abs() > TOLERANCE {
+            let rate = decimal(model.rate_max.to_degrees());
+            table.refuse("rate_max_deg_per_s", &format!("must be {rate} as joint.{}", other.name()));
+        }
+    }
+    if let (Some(own), Some(model)) = (own.motor, model.motor)
+        && numbers(&own).into_iter().zip(numbers(&model)).any(|(own, model)| (own - model).abs() > 0.0)
+    {
+        table.refuse("motor", &format!("must be the motor of joint.{}", other.name()));
+    }
+}
+
+/// A motor's numbers; those that were refused are `NaN` and differ from nothing.
+fn numbers(motor: &Motor) -> [f64; 5] {
+    [motor.resistance, motor.torque_constant, motor.gear_ratio, motor.rotor_inertia, motor.voltage_max]
+}
+
+/// The link that is the mirror image of the one that `joint` carries: the pelvis of itself, the left foot of the right.
+fn linked_partner(joint: Joint) -> Joint {
+    match joint {
+        Joint::LeftAnkleRoll => Joint::FootPitch,
+        Joint::FootPitch => partner(Joint::RightAnkleRoll),
+        _ if joint.is_in_leg() => partner(Joint::ALL[joint.index() + 1]),
+        _ => partner(joint),
+    }
+}
+
+/// Where the mirrored frame of the link on `joint` sits in the frame of the link that is its mirror image [m].
+///
+/// In the legs the frames sit at opposite ends: where the right link carries the next joint, the left one is mounted.
+fn image_of_frame(joint: Joint, mechanism: &Mechanism) -> Vector3<f64> {
+    match joint {
+        Joint::FootPitch => Vector3::new(0.0, 0.0, -mechanism.sole.ankle_height),
+        _ if joint.is_in_leg() => -across(mechanism.links[Joint::ALL[joint.index() + 1]].origin),
+        _ => Vector3::zeros(),
+    }
+}
+
+/// y of the plane of symmetry in the frame of the link on which `joint`, of trunk or arms, is mounted [m].
+fn plane_of_parent(joint: Joint, mechanism: &Mechanism) -> f64 {
+    // The pelvis' frame sits at the right hip, all others of trunk and arms in the middle or mirrored.
+    match mechanism.links[joint].parent {
+        Some(Joint::RightHipRoll) => mechanism.links[Joint::LeftHipRoll].origin.y / 2.0,
+        _ => 0.0,
+    }
+}
+
+fn across(vector: Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(vector.x, -vector.y, vector.z)
+}
+
+fn list(vector: Vector3<f64>) -> String {
+    format!("[{}, {}, {}]", decimal(vector.x), decimal(vector.y), decimal(vector.z))
+}
+
+/// A number as a person would write it, without the noise of the last binary digits and without `-0`.
+fn decimal(value: f64) -> f64 {
+    (value * 1e9).round() / 1e9 + 0.0
+}
