@@ -86,12 +86,12 @@ impl Feedback {
     fn zmp_shift(&self, error: Vector2<f64>, zmp_planned: Vector2<f64>) -> Vector2<f64> {
         let room = (self.sole_half_size - Vector2::repeat(self.parameters.edge)).map(|size| size.max(0.0));
         let wanted = zmp_planned + error * self.parameters.gain - self.sole_centre;
-        let inside = wanted.zip_map(&room, |wanted, room| wanted.clamp(-room, room));
+        let inside = wanted.zip_map(&room, |wanted, room| wanted.min(room).max(-room));
         // A plan outside the sole is not dragged inside by feedback alone: only errors move the point.
         let shift = inside + self.sole_centre - zmp_planned;
         shift.zip_map(&error, |shift, error| {
             let allowed = error * self.parameters.gain;
-            if allowed >= 0.0 { shift.clamp(0.0, allowed) } else { shift.clamp(allowed, 0.0) }
+            shift.min(allowed.max(0.0)).max(allowed.min(0.0))
         })
     }
 

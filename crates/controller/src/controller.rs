@@ -46,7 +46,7 @@ impl Controller {
         let mut plan = Plan::new(mechanism, &tree);
         plan.update(&tree, &walk.motion());
         Ok(Self {
-            watch: Watch::new(parameters.watch),
+            watch: Watch::new(mechanism, parameters.watch),
             kinematics: Kinematics::default(),
             zmp_estimator: ZmpEstimator::new(mechanism, parameters.balance.zmp),
             ground: Ground { zmp: None, margin: f64::NEG_INFINITY, loads: [0.0; 2] },

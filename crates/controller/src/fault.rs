@@ -20,11 +20,13 @@ pub enum Fault {
     InTheAir = 64,
     /// The trunk tilts beyond recovery.
     Fallen = 128,
+    /// A measurement had a value that no working sensor of this robot gives; it was not used.
+    MeasurementAbsurd = 256,
 }
 
 impl Fault {
     /// All faults.
-    pub const ALL: [Fault; 8] = [
+    pub const ALL: [Fault; 9] = [
         Fault::MeasurementStale,
         Fault::MeasurementNotFinite,
         Fault::MeasurementOutOfOrder,
@@ -33,6 +35,7 @@ impl Fault {
         Fault::WalkNotFinite,
         Fault::InTheAir,
         Fault::Fallen,
+        Fault::MeasurementAbsurd,
     ];
 }
 

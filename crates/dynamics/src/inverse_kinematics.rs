@@ -82,10 +82,8 @@ fn pose_difference(from: &Isometry3<f64>, to: &Isometry3<f64>) -> Vector6<f64> {
     Vector6::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z)
 }
 
-/// As [`UnitQuaternion::scaled_axis`], accurate and without a branch on tiny rotations.
+/// The rotation vector to first order, which is all that Newton's last steps need: no function of the system's
+/// mathematical library, whose last bits differ from machine to machine, gets into the result.
 fn rotation_vector(rotation: &UnitQuaternion<f64>) -> Vector3<f64> {
-    let (scalar, vector) =
-        if rotation.w < 0.0 { (-rotation.w, -rotation.imag()) } else { (rotation.w, rotation.imag()) };
-    let sine = vector.norm();
-    if sine < 1e-9 { vector * 2.0 } else { vector * (2.0 * sine.atan2(scalar) / sine) }
+    rotation.imag() * if rotation.w < 0.0 { -2.0 } else { 2.0 }
 }

@@ -114,9 +114,9 @@ fn sixteen_mistakes_are_sixteen_lines() {
         ),
         mistake(
             "joint.left_ankle_pitch",
-            "[-30, 45]",
-            "[45, -30]",
-            "13: joint.left_ankle_pitch.range_deg = [45, -30]: each must be greater than the one before",
+            "[-50, 45]",
+            "[45, -50]",
+            "13: joint.left_ankle_pitch.range_deg = [45, -50]: each must be greater than the one before",
         ),
         mistake(
             "joint.waist_pitch",

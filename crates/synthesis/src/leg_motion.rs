@@ -1,0 +1,79 @@
+//! Angles, rates and accelerations of a leg whose ends stay parallel to the world.
+
+use dynamics::{Kinematics, Leg, Tree, Unreachable, solve_leg};
+use model::{JointVector, Mechanism, Motion, Side};
+use nalgebra::{Isometry3, Matrix6, Vector3, Vector6};
+
+/// Bend of the first guess, from the foot up: shank ahead, thigh back, pelvis level [rad].
+const FIRST_BEND: [f64; 3] = [0.3, -0.6, 0.3];
+
+/// Bends both knees forward, so that inverse kinematics begins on the right side of the stretched leg.
+pub fn first_guess(mechanism: &Mechanism) -> JointVector {
+    let mut angles = JointVector::ZERO;
+    for side in Side::BOTH {
+        // From the pelvis down each rotation is turned round; its order is the same either way.
+        let direction = if side == Side::Right { 1.0 } else { -1.0 };
+        let pitches = Leg(side).joints().into_iter().filter(|&joint| mechanism.links[joint].axis.y.abs() > 0.5);
+        for (joint, bend) in pitches.zip(FIRST_BEND) {
+            angles[joint] = direction * bend * mechanism.links[joint].axis.y.signum();
+        }
+    }
+    angles
+}
+
+/// Where the far end of a leg is, and how it moves against the near end.
+#[derive(Clone, Copy, Debug)]
+pub struct LegEnd {
+    /// Of the origin of the last link, in support coordinates [m].
+    pub position: Vector3<f64>,
+    /// Against the leg's near end [m/s].
+    pub velocity: Vector3<f64>,
+    /// Against the leg's near end [m/s²].
+    pub acceleration: Vector3<f64>,
+}
+
+/// Fills in one leg's part of `motion`, whose angles are the first guess.
+pub fn move_leg(tree: &Tree, leg: Leg, end: &LegEnd, motion: &mut Motion) -> Result<(), Unreachable> {
+    let target = Isometry3::from(end.position);
+    solve_leg(tree, leg, &target, &mut motion.angles)?;
+
+    let kinematics = Kinematics::standing(tree, &motion.angles);
+    let jacobian = jacobian(&kinematics, leg).lu();
+    let stretched = Unreachable { residual: 0.0 };
+    let rates = jacobian.solve(&spatial(end.velocity, Vector3::zeros())).ok_or(stretched)?;
+    let drift = acceleration_without_drive(&kinematics, leg, &rates);
+    let accelerations = jacobian.solve(&(spatial(end.acceleration, Vector3::zeros()) - drift)).ok_or(stretched)?;
+    for (index, joint) in leg.joints().into_iter().enumerate() {
+        motion.rates[joint] = rates[index];
+        motion.accelerations[joint] = accelerations[index];
+    }
+    Ok(())
+}
+
+/// Linear and angular velocity of the leg's end per joint rate, in world axes.
+fn jacobian(kinematics: &Kinematics, leg: Leg) -> Matrix6<f64> {
+    let end = kinematics.origin[leg.end()];
+    Matrix6::from_columns(&leg.joints().map(|joint| {
+        let axis = kinematics.axis[joint];
+        spatial(axis.cross(&(end - kinematics.origin[joint])), axis)
+    }))
+}
+
+/// Linear and angular acceleration of the leg's end at the given rates when no joint accelerates: J̇·q̇.
+fn acceleration_without_drive(kinematics: &Kinematics, leg: Leg, rates: &Vector6<f64>) -> Vector6<f64> {
+    let (mut rate, mut turn, mut shift) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
+    let mut origin = kinematics.origin[leg.joints()[0]];
+    for (joint, &joint_rate) in leg.joints().into_iter().zip(rates.iter()) {
+        let arm = kinematics.origin[joint] - origin;
+        shift += turn.cross(&arm) + rate.cross(&rate.cross(&arm));
+        origin = kinematics.origin[joint];
+        let spin = kinematics.axis[joint] * joint_rate;
+        turn += rate.cross(&spin);
+        rate += spin;
+    }
+    spatial(shift, turn)
+}
+
+fn spatial(linear: Vector3<f64>, angular: Vector3<f64>) -> Vector6<f64> {
+    Vector6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
+}

@@ -1,0 +1,127 @@
+//! Leg paths with the shape of a recorded gait.
+//!
+//! The stance half of the recording carries the pelvis over a foot that stays flat, the swing half carries the other
+//! foot. Both paths are scaled to the step length and closed: the pelvis such that it ends with the rate with which it
+//! began, the swing foot such that it starts and lands at rest on the ground.
+
+use model::{Joint, Mechanism};
+
+use crate::fourier::FourierSeries;
+use crate::jet::{Jet, PointMotion};
+use crate::leg_path::LegPath;
+use crate::pendulum_path::PendulumPath;
+use crate::recording::{Recording, Sample};
+use crate::{Parameters, SynthesisError};
+
+/// Instants at which the swing foot's height is looked at.
+const LOOKS: usize = 240;
+
+/// A recorded gait over one half-step.
+#[derive(Clone, Debug)]
+pub struct RecordedPath {
+    /// What the recording does not tell: step length, heights, the sway to the side.
+    pendulum: PendulumPath,
+    /// The hip ahead of the ankle, over the cycle [m].
+    ahead: FourierSeries,
+    /// The hip above the ankle, over the cycle [m].
+    above: FourierSeries,
+    /// How much shorter the step is than the recorded one.
+    scale: f64,
+    /// Makes the arch of the recorded foot as high as it shall be.
+    lift_scale: f64,
+}
+
+impl RecordedPath {
+    pub fn new(mechanism: &Mechanism, pendulum: PendulumPath, recording: &Recording) -> Result<Self, SynthesisError> {
+        let thigh = mechanism.links[Joint::LeftKnee].origin.norm();
+        let shank = mechanism.links[Joint::LeftAnklePitch].origin.norm();
+        // With the trunk upright the thigh is as far ahead as the hip is flexed, the shank less by the knee's flexion.
+        let fit = |hip_part: fn(Jet) -> Jet, sign: f64| {
+            let samples = recording.samples.iter().map(|sample| {
+                let Sample { cycle, hip_flexion, knee_flexion } = *sample;
+                let thigh_part = hip_part(Jet::constant(hip_flexion)).value * thigh;
+                let shank_part = hip_part(Jet::constant(hip_flexion - knee_flexion)).value * shank;
+                (cycle, sign * (thigh_part + shank_part))
+            });
+            FourierSeries::fit(&samples.collect::<Vec<_>>()).ok_or(SynthesisError::RecordingUndetermined)
+        };
+        let (ahead, above) = (fit(Jet::sin, -1.0)?, fit(Jet::cos, 1.0)?);
+
+        let mut path = Self { pendulum, ahead, above, scale: 1.0, lift_scale: 1.0 };
+        let recorded_step = path.hip_ahead(Jet::constant(1.0)).value - path.hip_ahead(Jet::constant(0.0)).value;
+        if recorded_step <= 0.0 {
+            return Err(SynthesisError::RecordingGoesBackwards { step: recorded_step });
+        }
+        path.scale = path.pendulum.parameters.step_length / recorded_step;
+        path.lift_scale = path.pendulum.parameters.clearance / path.highest_lift()?;
+        Ok(path)
+    }
+
+    /// The hip ahead of the bearing ankle, as recorded [m].
+    fn hip_ahead(&self, progress: Jet) -> Jet {
+        self.ahead.at(progress * 0.5)
+    }
+
+    /// The hip above the bearing ankle, as recorded [m].
+    fn hip_above(&self, progress: Jet) -> Jet {
+        self.above.at(progress * 0.5)
+    }
+
+    /// The swinging ankle ahead of the bearing one, as recorded [m].
+    fn foot_ahead(&self, progress: Jet) -> Jet {
+        self.hip_ahead(progress) - self.ahead.at(progress * 0.5 + 0.5)
+    }
+
+    /// The swing foot's height with rest forced on both ends, before it is scaled to the clearance [m].
+    fn lift(&self, progress: Jet) -> Jet {
+        let above = |progress: Jet| self.hip_above(progress) - self.above.at(progress * 0.5 + 0.5);
+        (above(progress) - chord(above, progress)) * progress.bump()
+    }
+
+    /// The highest the unscaled swing foot comes [m].
+    fn highest_lift(&self) -> Result<f64, SynthesisError> {
+        let mut highest = 0.0_f64;
+        for look in 1..LOOKS {
+            let progress = look as f64 / LOOKS as f64;
+            let lift = self.lift(Jet::constant(progress)).value;
+            if lift < 0.0 {
+                return Err(SynthesisError::RecordedFootBelowGround { percent: 50.0 * (1.0 + progress) });
+            }
+            highest = highest.max(lift);
+        }
+        Ok(highest)
+    }
+}
+
+impl LegPath for RecordedPath {
+    fn pelvis(&self, progress: Jet) -> PointMotion {
+        let Parameters { step_length, pelvis_setback, hip_height, .. } = self.pendulum.parameters;
+        let middle = self.hip_ahead(Jet::constant(0.0)).value * self.scale + step_length / 2.0;
+        let forward = closed(|at| self.hip_ahead(at) * self.scale, progress) - (middle + pelvis_setback);
+        let vault = |at: Jet| self.hip_above(at) * self.scale;
+        let height = closed(|at| vault(at) - chord(vault, at), progress) + hip_height;
+        PointMotion::new(forward, self.pendulum.pelvis_y(progress), height)
+    }
+
+    fn swing_sole(&self, progress: Jet) -> PointMotion {
+        let (start, end) = (self.foot_ahead(Jet::constant(0.0)).value, self.foot_ahead(Jet::constant(1.0)).value);
+        let recorded = (self.foot_ahead(progress) - start) * (1.0 / (end - start));
+        // The recorded foot is on its way at both ends: there a smooth step takes over.
+        let at_rest = progress.smooth_step();
+        let share = at_rest + (recorded - at_rest) * progress.bump();
+        self.pendulum.swing_at(share, self.lift(progress) * self.lift_scale)
+    }
+}
+
+/// The straight line between the ends of a path.
+fn chord(path: impl Fn(Jet) -> Jet, progress: Jet) -> Jet {
+    let (start, end) = (path(Jet::constant(0.0)).value, path(Jet::constant(1.0)).value);
+    progress * (end - start) + start
+}
+
+/// The path with as little of a parabola added as makes both ends' rates alike; the ends stay.
+fn closed(path: impl Fn(Jet) -> Jet, progress: Jet) -> Jet {
+    let rate_at = |end: f64| path(Jet { value: end, rate: 1.0, acceleration: 0.0 }).rate;
+    let mismatch = rate_at(1.0) - rate_at(0.0);
+    path(progress) + progress * (-progress + 1.0) * (mismatch / 2.0)
+}

@@ -1,0 +1,148 @@
+//! The semi-inverse method (Vukobratović and Stokić 1975; DESIGN §3): given the legs and arms, the two trunk joints such
+//! that the ground has no horizontal moment about O.
+//!
+//! Each trunk joint is a quintic spline. Gauss–Newton drives the moments at all collocation points to zero in the least
+//! squares sense; that the end mirrors the start, in angle and rate, is linear in the coefficients and holds exactly.
+
+use dynamics::{NewtonEuler, Tree};
+use model::{GRAVITY, Joint, Mirror, Motion};
+use nalgebra::{DMatrix, DVector, Vector2};
+
+use crate::SynthesisError;
+use crate::jet::Jet;
+use crate::spline::SplineBasis;
+
+/// The joints that carry the trunk; the mirror keeps each in its place.
+pub const TRUNK: [Joint; 2] = [Joint::WaistPitch, Joint::WaistRoll];
+
+/// Coefficients of each trunk joint's spline: 14 leave up to 2 mm to a recorded gait, 32 a few hundredths of that.
+const COEFFICIENTS: usize = 32;
+const ITERATIONS_MAX: usize = 30;
+/// Largest change of a coefficient at which the fit counts as settled [rad].
+const SETTLED: f64 = 1e-11;
+/// Half of the span of central differences [rad, rad/s, rad/s²].
+const DIFFERENCE: f64 = 1e-4;
+
+/// The trunk's motion, as found.
+#[derive(Clone, Debug)]
+pub struct TrunkMotion {
+    basis: SplineBasis,
+    /// Of both joints, one after the other [rad].
+    coefficients: Vec<f64>,
+    /// Gauss–Newton steps that it took.
+    pub iterations: usize,
+}
+
+impl TrunkMotion {
+    /// Puts the trunk's part into a motion.
+    pub fn apply(&self, progress: Jet, motion: &mut Motion) {
+        for (joint, coefficients) in TRUNK.into_iter().zip(self.coefficients.chunks(COEFFICIENTS)) {
+            let Jet { value, rate, acceleration } = self.basis.evaluate(coefficients, progress);
+            motion.angles[joint] = value;
+            motion.rates[joint] = rate;
+            motion.accelerations[joint] = acceleration;
+        }
+    }
+}
+
+/// Finds the trunk's motion for the motion of everything else at the collocation points.
+///
+/// # Errors
+/// [`SynthesisError::NotConverged`].
+pub fn balance_trunk(tree: &Tree, mirror: &Mirror, points: &[(Jet, Motion)]) -> Result<TrunkMotion, SynthesisError> {
+    let basis = SplineBasis::new(COEFFICIENTS);
+    let unknowns = TRUNK.len() * COEFFICIENTS;
+    let ends = end_conditions(&basis, mirror);
+    let mut trunk = TrunkMotion { basis, coefficients: vec![0.0; unknowns], iterations: 0 };
+    let mut newton_euler = NewtonEuler::default();
+    let mut change = f64::INFINITY;
+
+    while trunk.iterations < ITERATIONS_MAX {
+        // Minimise |r + J·δ|² under ends·(x + δ) = 0: the Karush–Kuhn–Tucker system.
+        let size = unknowns + ends.nrows();
+        let mut matrix = DMatrix::zeros(size, size);
+        let mut right = DVector::zeros(size);
+        for (progress, motion) in points {
+            let mut motion = *motion;
+            trunk.apply(*progress, &mut motion);
+            let offset = ground_moment(&mut newton_euler, tree, &motion);
+            let slopes = offset_slopes(&mut newton_euler, tree, &motion, &basis, *progress);
+            for &(row, slope) in &slopes {
+                right[row] -= slope.dot(&offset);
+                for &(column, other) in &slopes {
+                    matrix[(row, column)] += slope.dot(&other);
+                }
+            }
+        }
+        for (index, condition) in ends.row_iter().enumerate() {
+            for (column, &weight) in condition.iter().enumerate() {
+                matrix[(unknowns + index, column)] = weight;
+                matrix[(column, unknowns + index)] = weight;
+                right[unknowns + index] -= weight * trunk.coefficients[column];
+            }
+        }
+        let Some(step) = matrix.lu().solve(&right) else { break };
+        trunk.iterations += 1;
+        change = 0.0;
+        for (coefficient, step) in trunk.coefficients.iter_mut().zip(step.iter()) {
+            *coefficient += step;
+            change = change.max(step.abs());
+        }
+        if change < SETTLED {
+            return Ok(trunk);
+        }
+    }
+    Err(SynthesisError::NotConverged { iterations: trunk.iterations, change })
+}
+
+/// For each trunk joint, angle and rate: (end − sign·start)·coefficients = 0.
+fn end_conditions(basis: &SplineBasis, mirror: &Mirror) -> DMatrix<f64> {
+    let mut conditions = DMatrix::zeros(2 * TRUNK.len(), TRUNK.len() * COEFFICIENTS);
+    for (position, joint) in TRUNK.into_iter().enumerate() {
+        for (end, sign) in [(1.0, 1.0), (0.0, -mirror.sign(joint))] {
+            let (range, functions) = basis.at(Jet { value: end, rate: 1.0, acceleration: 0.0 });
+            for (column, function) in range.zip(functions) {
+                let column = position * COEFFICIENTS + column;
+                conditions[(2 * position, column)] += sign * function.value;
+                conditions[(2 * position + 1, column)] += sign * function.rate;
+            }
+        }
+    }
+    conditions
+}
+
+/// The ground's moment about O around x and y, per weight: with the sides exchanged, the ZMP's distance from O [m].
+fn ground_moment(newton_euler: &mut NewtonEuler, tree: &Tree, motion: &Motion) -> Vector2<f64> {
+    newton_euler.stand(tree, motion);
+    newton_euler.ground.moment.xy() / (tree.mass * GRAVITY)
+}
+
+/// How the ground moment changes with each spline coefficient that matters at one instant.
+fn offset_slopes(
+    newton_euler: &mut NewtonEuler,
+    tree: &Tree,
+    motion: &Motion,
+    basis: &SplineBasis,
+    progress: Jet,
+) -> Vec<(usize, Vector2<f64>)> {
+    let mut slope = |change: &dyn Fn(&mut Motion, f64)| {
+        let mut moment_at = |difference| {
+            let mut changed = *motion;
+            change(&mut changed, difference);
+            ground_moment(newton_euler, tree, &changed)
+        };
+        (moment_at(DIFFERENCE) - moment_at(-DIFFERENCE)) / (2.0 * DIFFERENCE)
+    };
+    let mut slopes = Vec::new();
+    for (position, joint) in TRUNK.into_iter().enumerate() {
+        let by_angle = slope(&|motion, difference| motion.angles[joint] += difference);
+        let by_rate = slope(&|motion, difference| motion.rates[joint] += difference);
+        let by_acceleration = slope(&|motion, difference| motion.accelerations[joint] += difference);
+        let (range, functions) = basis.at(progress);
+        for (column, function) in range.zip(functions) {
+            let slope = by_angle * function.value + by_rate * function.rate + by_acceleration * function.acceleration;
+            slopes.push((position * COEFFICIENTS + column, slope));
+        }
+    }
+    slopes
+}

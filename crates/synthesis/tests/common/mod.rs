@@ -1,0 +1,15 @@
+//! Where the statements find their files.
+
+use std::path::PathBuf;
+
+use model::Mechanism;
+
+/// A file of the `config` folder.
+pub fn config(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../config").join(name)
+}
+
+/// The mechanism of a file of the `config` folder.
+pub fn mechanism(name: &str) -> Mechanism {
+    Mechanism::load(config(name)).unwrap_or_else(|errors| panic!("{errors}"))
+}

@@ -1,0 +1,105 @@
+//! Controller and plant walking together in one process, in lockstep.
+
+use std::sync::Arc;
+
+use controller::{Controller, Intent, Measurement, Mode, TickReport};
+use gait::{NominalTable, Request, Start, Walk};
+use model::Mechanism;
+use plant::{Plant, Setpoint, Truth};
+
+use crate::repository;
+
+/// Control period of all walks [s].
+pub const PERIOD: f64 = 1e-3;
+
+/// `config/nominal_half_step.csv`.
+pub fn nominal() -> Arc<NominalTable> {
+    let file = repository().join("config/nominal_half_step.csv");
+    Arc::new(NominalTable::read_csv(&file).expect("the committed nominal loads"))
+}
+
+/// `config/controller.toml`.
+pub fn controller_parameters() -> controller::Parameters {
+    controller::Parameters::load(repository().join("config/controller.toml")).expect("the committed file loads")
+}
+
+/// `config/plant.toml`.
+pub fn plant_parameters() -> plant::Parameters {
+    plant::Parameters::load(repository().join("config/plant.toml")).expect("the committed file loads")
+}
+
+/// A controller and a plant that walk together.
+pub struct Walking {
+    /// The one.
+    pub controller: Controller,
+    /// The other.
+    pub plant: Plant,
+    measured: Measurement,
+    tick: u64,
+}
+
+impl Walking {
+    /// At the beginning of the nominal half-step, with the committed configuration.
+    pub fn begin(seed: u64) -> Self {
+        Self::begin_with(&crate::mechanism(), &controller_parameters(), &plant_parameters(), seed)
+    }
+
+    /// The same with other parameters.
+    pub fn begin_with(
+        mechanism: &Mechanism,
+        controller: &controller::Parameters,
+        plant: &plant::Parameters,
+        seed: u64,
+    ) -> Self {
+        let table = nominal();
+        let start = Walk::new(table.clone(), mechanism, &controller.gait, Start::default())
+            .expect("the committed nominal walks")
+            .physical_motion();
+        let mut plant = Plant::new(mechanism, plant, &start, PERIOD, seed);
+        let measured = sensed(&plant.measure(), 0);
+        let controller =
+            Controller::new(mechanism, table, controller, Start::default()).expect("the committed nominal walks");
+        Self { controller, plant, measured, tick: 0 }
+    }
+
+    /// One period of both.
+    pub fn tick(&mut self, request: Option<(&Request, Option<Intent>)>) -> TickReport {
+        let report = self.controller.tick(PERIOD, Some(&self.measured), request);
+        self.tick += 1;
+        self.measured = sensed(&self.plant.step(&setpoint(&report)), self.tick);
+        report
+    }
+
+    /// Walks on for `seconds`, or until it falls: the truth at the end.
+    pub fn walk(&mut self, seconds: f64) -> Truth {
+        for _ in 0..(seconds / PERIOD).round() as u64 {
+            let report = self.tick(None);
+            let truth = self.plant.truth();
+            if truth.has_fallen() || report.mode == Mode::Fallen {
+                return truth;
+            }
+        }
+        self.plant.truth()
+    }
+
+    /// Walked time so far [s].
+    pub fn time(&self) -> f64 {
+        self.tick as f64 * PERIOD
+    }
+}
+
+fn sensed(measured: &plant::Measurement, tick: u64) -> Measurement {
+    Measurement {
+        tick,
+        angles: measured.angles,
+        rates: measured.rates,
+        feet: measured.feet,
+        orientation: measured.orientation.into_inner(),
+        angular_rate: measured.angular_rate,
+    }
+}
+
+fn setpoint(report: &TickReport) -> Setpoint {
+    let controller::Setpoint { angles, rates, feed_forward } = report.setpoint;
+    Setpoint { angles, rates, feed_forward }
+}
