@@ -1,0 +1,106 @@
+//! Periods have deadlines, not pauses: the n-th begins at `start + n · period`, however long the work took.
+//!
+//! * **deadline**: an absolute time on `CLOCK_MONOTONIC`, which no one sets and all processes of the machine share.
+//! * **missed**: a whole period in which the loop did not wake up. After a delay of 2.3 periods two were missed; the
+//!   third begins at once, 0.3 periods late, and the next one on time: the phase is kept, and nothing is caught up.
+
+use std::time::Duration;
+
+use rustix::io::Errno;
+use rustix::thread::{ClockId, clock_nanosleep_absolute};
+use rustix::time::{Timespec, clock_gettime};
+
+/// A grid of deadlines, and the next one on it.
+#[derive(Clone, Copy, Debug)]
+pub struct Period {
+    length_ns: u64,
+    deadline_ns: u64,
+}
+
+impl Period {
+    /// Periods of `length` from now on; the first deadline is one `length` away. Shorter lengths than 1 ns count as 1 ns.
+    pub fn starting_now(length: Duration) -> Self {
+        let length_ns = u64::try_from(length.as_nanos()).unwrap_or(u64::MAX / 2).max(1);
+        Self { length_ns, deadline_ns: now_ns().saturating_add(length_ns) }
+    }
+
+    /// Sleeps until the deadline, if it is still to come, and moves it one period on. Returns how many whole periods
+    /// were missed: 0 as long as the work fits into the period. Neither allocates nor fails.
+    pub fn wait(&mut self) -> u64 {
+        let missed = self.skip_missed(now_ns());
+        sleep_until(self.deadline_ns);
+        self.deadline_ns = self.deadline_ns.saturating_add(self.length_ns);
+        missed
+    }
+
+    /// The next deadline on `CLOCK_MONOTONIC` [ns].
+    pub fn deadline_ns(&self) -> u64 {
+        self.deadline_ns
+    }
+
+    /// Moves the deadline over the whole periods that have passed since, and says how many those were.
+    fn skip_missed(&mut self, now_ns: u64) -> u64 {
+        let missed = now_ns.saturating_sub(self.deadline_ns) / self.length_ns;
+        self.deadline_ns += missed * self.length_ns;
+        missed
+    }
+}
+
+/// The time on `CLOCK_MONOTONIC` [ns], the same in all processes of the machine.
+pub fn now_ns() -> u64 {
+    let now = clock_gettime(rustix::time::ClockId::Monotonic);
+    // Neither part of a monotonic clock is ever negative.
+    now.tv_sec as u64 * NS_PER_S + now.tv_nsec as u64
+}
+
+const NS_PER_S: u64 = 1_000_000_000;
+
+fn sleep_until(deadline_ns: u64) {
+    let deadline = Timespec { tv_sec: (deadline_ns / NS_PER_S) as i64, tv_nsec: (deadline_ns % NS_PER_S) as i64 };
+    // A signal may wake us early; the deadline is absolute, so that going back to sleep loses nothing.
+    while clock_nanosleep_absolute(ClockId::Monotonic, &deadline) == Err(Errno::INTR) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_sleeps_until_the_deadline_and_not_for_a_while() {
+        let length = Duration::from_millis(5);
+        let mut period = Period::starting_now(length);
+        let first = period.deadline_ns();
+        let mut deadlines = 0;
+        for _ in 0..10 {
+            deadlines += period.wait() + 1;
+            assert!(now_ns() >= period.deadline_ns() - length.as_nanos() as u64, "woke up before the deadline");
+            // Some work, which must not add to the period.
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        assert_eq!(period.deadline_ns(), first + deadlines * 5_000_000, "the deadlines stay on their grid");
+    }
+
+    #[test]
+    fn a_late_caller_hears_how_many_it_missed_and_keeps_the_phase() {
+        let mut period = Period { length_ns: 100, deadline_ns: 1000 };
+        assert_eq!((period.skip_missed(700), period.deadline_ns), (0, 1000));
+        assert_eq!((period.skip_missed(1000), period.deadline_ns), (0, 1000), "just in time");
+        assert_eq!((period.skip_missed(1099), period.deadline_ns), (0, 1000), "late, but within the period");
+        assert_eq!((period.skip_missed(1230), period.deadline_ns), (2, 1200), "2.3 periods late");
+    }
+
+    #[test]
+    fn a_stall_is_counted() {
+        let mut period = Period::starting_now(Duration::from_millis(1));
+        period.wait();
+        std::thread::sleep(Duration::from_millis(20));
+        assert!(period.wait() >= 18);
+    }
+
+    #[test]
+    fn extreme_lengths_do_not_overflow() {
+        assert_eq!(Period::starting_now(Duration::ZERO).length_ns, 1);
+        let mut period = Period::starting_now(Duration::MAX);
+        assert_eq!(period.skip_missed(now_ns()), 0);
+    }
+}

@@ -1,0 +1,215 @@
+//! An instance: one robot's name and the memory that its processes share.
+
+use std::fmt;
+use std::path::PathBuf;
+use std::str::FromStr;
+use std::sync::Once;
+
+use iceoryx2::prelude::{
+    CallbackProgression, Config, FileName, LogLevel, Node, NodeBuilder, NodeName, NodeState, Path, SemanticString,
+    ServiceName, SignalHandlingMode, set_log_level_from_env_or,
+};
+
+use crate::turn::Turn;
+use crate::{ConnectError, Ipc, PROTOCOL};
+
+/// Where POSIX shared memory lies on Linux.
+const SHARED_MEMORY: &str = "/dev/shm";
+
+/// A name of 1 to 32 of `a`–`z`, `0`–`9`, `_` and `-`.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct InstanceName(String);
+
+impl InstanceName {
+    /// The name as text.
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+impl FromStr for InstanceName {
+    type Err = ConnectError;
+
+    fn from_str(name: &str) -> Result<Self, ConnectError> {
+        let usable = |character: &char| matches!(character, 'a'..='z' | '0'..='9' | '_' | '-');
+        let reason = match (name.chars().count(), name.chars().find(|character| !usable(character))) {
+            (0, _) => "it is empty".to_owned(),
+            (_, Some(character)) => format!("it contains {character:?}"),
+            (length @ 33.., None) => format!("it has {length} characters"),
+            (1..33, None) => return Ok(Self(name.to_owned())),
+        };
+        Err(ConnectError::BadName { name: name.to_owned(), reason })
+    }
+}
+
+impl fmt::Display for InstanceName {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        formatter.pad(&self.0)
+    }
+}
+
+/// One robot: its name and where its memory lies.
+#[derive(Clone, Debug)]
+pub struct Instance {
+    name: InstanceName,
+    protocol: u32,
+    root: PathBuf,
+    config: Config,
+}
+
+impl Instance {
+    /// The instance called `name`. Nothing is created yet.
+    ///
+    /// # Errors
+    /// The name is not usable, or the path of the temporary folder is too long.
+    pub fn new(name: &str) -> Result<Self, ConnectError> {
+        let name: InstanceName = name.parse()?;
+        let user = rustix::process::getuid().as_raw();
+        let root = std::env::temp_dir().join(format!("halfstep-{user}")).join(name.as_str());
+
+        // Made here and not read from a file: all processes of an instance must agree, wherever they were started.
+        let mut config = Config::default();
+        let no_path = |cause: &dyn fmt::Debug| ConnectError::Memory {
+            action: "use the folder",
+            what: root.display().to_string(),
+            cause: format!("{cause:?}"),
+        };
+        // A dot cannot be part of a name, so that no instance's files begin like another's.
+        config.global.prefix =
+            FileName::new(format!("halfstep.{name}.").as_bytes()).map_err(|cause| no_path(&cause))?;
+        config.global.set_root_path(&Path::new(root.as_os_str().as_encoded_bytes()).map_err(|cause| no_path(&cause))?);
+        Ok(Self { name, protocol: PROTOCOL, root, config })
+    }
+
+    /// The same instance for a process that speaks another version than [`PROTOCOL`].
+    pub fn with_protocol(self, protocol: u32) -> Self {
+        Self { protocol, ..self }
+    }
+
+    /// The instance's name.
+    pub fn name(&self) -> &InstanceName {
+        &self.name
+    }
+
+    /// Removes everything that processes which are gone have left behind, dead ones and, of a clean exit, the last few
+    /// bytes. While any process is connected only the dead are cleaned up after. Not for the control loop.
+    ///
+    /// # Errors
+    /// The folder of the instance cannot be read or removed.
+    pub fn remove_leftovers(&self) -> Result<(), ConnectError> {
+        let _turn = self.turn()?;
+        let mut somebody_is_there = false;
+        Node::<Ipc>::list(&self.config, |state| {
+            match state {
+                NodeState::Alive(_) | NodeState::Inaccessible(_) => somebody_is_there = true,
+                // If it fails, its files go below or with the next one who tries.
+                NodeState::Dead(dead) => drop(dead.try_remove_stale_resources()),
+                // It was killed while it joined.
+                NodeState::Undefined(_) => {}
+            }
+            CallbackProgression::Continue
+        })
+        .map_err(|cause| self.memory("list the processes of", cause))?;
+        if somebody_is_there {
+            return Ok(());
+        }
+
+        let prefix = self.config.global.prefix.to_string();
+        let files = std::fs::read_dir(SHARED_MEMORY).map_err(|cause| self.memory("read the files of", cause))?;
+        for file in files.flatten().filter(|file| file.file_name().as_encoded_bytes().starts_with(prefix.as_bytes())) {
+            gone(std::fs::remove_file(file.path())).map_err(|cause| self.memory("remove the files of", cause))?;
+        }
+        gone(std::fs::remove_dir_all(&self.root)).map_err(|cause| self.memory("remove the files of", cause))
+    }
+
+    /// Removes the leftovers when the guard is dropped: for tests, and for instances with a name used once.
+    pub fn leftovers(&self) -> Leftovers {
+        Leftovers(self.clone())
+    }
+
+    pub(crate) fn protocol(&self) -> u32 {
+        self.protocol
+    }
+
+    pub(crate) fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// Waits for the turn to connect.
+    pub(crate) fn turn(&self) -> Result<Turn, ConnectError> {
+        quiet();
+        Turn::take(&self.root).map_err(|cause| self.memory("connect to the instance", cause))
+    }
+
+    /// Joins the instance, and cleans up after processes that died in it. Only whose turn it is may do so.
+    pub(crate) fn join(&self, _turn: &Turn, role: &str) -> Result<Node<Ipc>, ConnectError> {
+        NodeBuilder::new()
+            .name(&NodeName::new(role).expect("a role is a short word"))
+            .config(&self.config)
+            // Signals belong to the process, not to a library.
+            .signal_handling_mode(SignalHandlingMode::Disabled)
+            .create()
+            .map_err(|cause| self.memory("join the instance", cause))
+    }
+
+    pub(crate) fn service_name(&self, service: &str) -> ServiceName {
+        let name = format!("halfstep/{}/{service}", self.name);
+        ServiceName::new(&name).expect("an instance's name is short and plain")
+    }
+
+    pub(crate) fn no_controller(&self) -> ConnectError {
+        ConnectError::NoController { instance: self.name.to_string() }
+    }
+
+    fn memory(&self, action: &'static str, cause: impl fmt::Display) -> ConnectError {
+        ConnectError::Memory { action, what: self.name.to_string(), cause: cause.to_string() }
+    }
+}
+
+/// Removes what is left of an instance when dropped; see [`Instance::remove_leftovers`].
+#[derive(Debug)]
+#[must_use = "dropping it removes the leftovers at once"]
+pub struct Leftovers(Instance);
+
+impl Drop for Leftovers {
+    fn drop(&mut self) {
+        // Nobody can be told, and leftovers do no harm but take space.
+        let _ = self.0.remove_leftovers();
+    }
+}
+
+/// Something that is already gone needs no removal.
+fn gone(result: std::io::Result<()>) -> std::io::Result<()> {
+    match result {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(()),
+        result => result,
+    }
+}
+
+/// iceoryx2 comments on every refusal, which we report ourselves; `IOX2_LOG_LEVEL` makes it talk.
+fn quiet() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| set_log_level_from_env_or(LogLevel::Fatal));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bad_name_is_refused_with_what_is_wrong_and_what_would_be_right() {
+        let text = |name: &str| Instance::new(name).unwrap_err().to_string();
+        assert_eq!(
+            text("Robot 1"),
+            "instance name `Robot 1` is not usable: it contains 'R'; \
+             write 1 to 32 of a–z, 0–9, _ and -, e.g. `robot-1`"
+        );
+        assert!(text("").contains("it is empty"));
+        assert!(text(&"a".repeat(33)).contains("it has 33 characters"));
+        assert!(text("../etc").contains("it contains '.'"));
+        assert!(text("a/b").contains("it contains '/'"));
+        assert!(text("größe").contains("it contains 'ö'"));
+        assert!(Instance::new(&"a".repeat(32)).is_ok());
+        assert!(Instance::new("robot_1-b").is_ok());
+    }
+}

@@ -1,0 +1,98 @@
+//! What can be wrong with a message.
+
+use model::{Joint, JointVector, PerJoint, Wrench};
+
+/// Why a message is refused. `Copy`, so that it can travel through a journal.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum MessageFault {
+    /// A number is NaN or infinite.
+    #[error("{message}: {field} is {value}; it must be finite")]
+    NotFinite {
+        /// Which message.
+        message: &'static str,
+        /// Which field of it.
+        field: &'static str,
+        /// What stands there.
+        value: f64,
+    },
+    /// The number of a joint is NaN or infinite.
+    #[error("{message}: {field} of joint {} ({}) is {value}; it must be finite", joint.number(), joint.name())]
+    JointNotFinite {
+        /// Which message.
+        message: &'static str,
+        /// Which field of it.
+        field: &'static str,
+        /// Whose value it is.
+        joint: Joint,
+        /// What stands there.
+        value: f64,
+    },
+    /// A code that means nothing.
+    #[error("{message}: {field} is {value}; known are {known}")]
+    UnknownCode {
+        /// Which message.
+        message: &'static str,
+        /// Which field of it.
+        field: &'static str,
+        /// What stands there.
+        value: u32,
+        /// The codes that mean something, as text.
+        known: &'static str,
+    },
+    /// A quaternion that is no rotation.
+    #[error("{message}: {field} has length {length}; a rotation has length 1")]
+    NotARotation {
+        /// Which message.
+        message: &'static str,
+        /// Which field of it.
+        field: &'static str,
+        /// Its length.
+        length: f64,
+    },
+}
+
+/// Checks the fields of one kind of message.
+pub(crate) struct Check(pub &'static str);
+
+impl Check {
+    pub fn number(&self, field: &'static str, value: f64) -> Result<f64, MessageFault> {
+        if value.is_finite() { Ok(value) } else { Err(MessageFault::NotFinite { message: self.0, field, value }) }
+    }
+
+    pub fn numbers<const N: usize>(&self, field: &'static str, values: &[f64; N]) -> Result<[f64; N], MessageFault> {
+        match values.iter().find(|value| !value.is_finite()) {
+            None => Ok(*values),
+            Some(&value) => Err(MessageFault::NotFinite { message: self.0, field, value }),
+        }
+    }
+
+    pub fn joints(&self, field: &'static str, values: &[f64; Joint::COUNT]) -> Result<JointVector, MessageFault> {
+        let values = PerJoint(*values);
+        match values.iter().find(|(_, value)| !value.is_finite()) {
+            None => Ok(values),
+            Some((joint, &value)) => Err(MessageFault::JointNotFinite { message: self.0, field, joint, value }),
+        }
+    }
+
+    /// Force xyz, then moment xyz.
+    pub fn wrench(&self, field: &'static str, values: &[f64; 6]) -> Result<Wrench, MessageFault> {
+        let [fx, fy, fz, mx, my, mz] = self.numbers(field, values)?;
+        Ok(Wrench { force: [fx, fy, fz].into(), moment: [mx, my, mz].into() })
+    }
+
+    /// A unit quaternion, w first; rounding may have taken it a little off.
+    pub fn rotation(&self, field: &'static str, values: &[f64; 4]) -> Result<[f64; 4], MessageFault> {
+        const LENGTH_TOLERANCE: f64 = 1e-3;
+        let values = self.numbers(field, values)?;
+        let length = values.iter().map(|value| value * value).sum::<f64>().sqrt();
+        if (length - 1.0).abs() <= LENGTH_TOLERANCE {
+            Ok(values.map(|value| value / length))
+        } else {
+            Err(MessageFault::NotARotation { message: self.0, field, length })
+        }
+    }
+
+    pub fn code<T: super::code::Code>(&self, field: &'static str, value: u32) -> Result<T, MessageFault> {
+        T::from_code(value).ok_or(MessageFault::UnknownCode { message: self.0, field, value, known: T::KNOWN })
+    }
+}

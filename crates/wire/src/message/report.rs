@@ -1,0 +1,263 @@
+//! Report, controller → anyone: what happened in one period.
+
+use iceoryx2::prelude::ZeroCopySend;
+use model::Side;
+
+use super::MessageFault;
+use super::code::codes;
+use super::fault::Check;
+
+codes! {
+    /// What the controller is doing.
+    Mode {
+        /// On both feet, ready to start.
+        Standing = 0 "standing",
+        /// From standing into the walk.
+        Starting = 1 "starting",
+        /// Half-step after half-step.
+        Walking = 2 "walking",
+        /// From the walk to standing.
+        Stopping = 3 "stopping",
+        /// Keeping a posture.
+        Holding = 4 "holding",
+        /// Lying, or about to.
+        Fallen = 5 "fallen",
+    }
+}
+
+codes! {
+    /// One thing that is not as it should be; its number is its bit in [`ReportMessage::faults`].
+    Fault {
+        /// The measurement holds a number that is not finite.
+        MeasurementNotFinite = 1 "the measurement holds a number that is not finite",
+        /// No new measurement has come for too long.
+        MeasurementStale = 2 "no new measurement has come for too long",
+        /// Measurements come, but their values stand still.
+        MeasurementFrozen = 4 "measurements come, but their values stand still",
+        /// A measurement is older than one before it.
+        MeasurementOutOfOrder = 8 "a measurement is older than one before it",
+        /// A joint angle in the setpoint had to be held within its range.
+        AngleLimited = 16 "a joint angle had to be held within its range",
+        /// A joint rate in the setpoint had to be held within its limit.
+        RateLimited = 32 "a joint rate had to be held within its limit",
+        /// The ZMP has left the support.
+        MarginLost = 64 "the zero-moment point has left the support",
+        /// The feet carry too little for a ZMP estimate.
+        InTheAir = 128 "the feet carry too little for a zero-moment point",
+        /// The robot has fallen.
+        Fallen = 256 "the robot has fallen",
+        /// A deadline was missed in this period.
+        DeadlineMissed = 512 "a deadline was missed",
+        /// The other process is gone.
+        PeerGone = 1024 "the plant is gone",
+        /// The setpoint computed was not finite and the last good one was sent.
+        SetpointNotFinite = 2048 "the setpoint was not finite; the last good one was sent",
+    }
+}
+
+/// A [`Report`] as it lies in shared memory.
+#[derive(Clone, Copy, Debug, PartialEq, ZeroCopySend)]
+#[type_name("halfstep.Report.v1")]
+#[repr(C)]
+pub struct ReportMessage {
+    /// Periods since the controller started.
+    pub tick: u64,
+    /// When the period began, `CLOCK_MONOTONIC` [ns].
+    pub time_ns: u64,
+    /// A [`Mode`].
+    pub mode: u32,
+    /// The bearing foot: 0 right, 1 left.
+    pub support: u32,
+    /// Half-steps finished, which is the number of the present one counted from 0.
+    pub half_step: u64,
+    /// How much of the present half-step is done, 0 to 1.
+    pub progress: f64,
+    /// `c` in force.
+    pub speed: f64,
+    /// `α` in force [rad].
+    pub turn: f64,
+    /// `β` in force [rad].
+    pub extension: f64,
+    /// Measured ZMP, x and y in the bearing foot's sole frame [m]; NaN when the feet carry too little.
+    pub zmp_in_support: [f64; 2],
+    /// Planned ZMP, likewise [m]; NaN when there is no plan.
+    pub zmp_planned: [f64; 2],
+    /// Of the measured ZMP to the edge of the support polygon [m], negative outside; NaN when there is none.
+    pub margin: f64,
+    /// Feedback angles added at the support ankle: roll, pitch [rad].
+    pub lean: [f64; 2],
+    /// Sum of the [`Fault`]s present.
+    pub faults: u32,
+    /// Deadlines missed since the start.
+    pub missed: u32,
+    /// Computing time of the period [ns].
+    pub compute_ns: u64,
+}
+
+/// What happened in one period.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report {
+    /// Periods since the controller started.
+    pub tick: u64,
+    /// When the period began, `CLOCK_MONOTONIC` [ns].
+    pub time_ns: u64,
+    /// What the controller is doing.
+    pub mode: Mode,
+    /// The bearing foot.
+    pub support: Side,
+    /// Half-steps finished, which is the number of the present one counted from 0.
+    pub half_step: u64,
+    /// How much of the present half-step is done, 0 to 1.
+    pub progress: f64,
+    /// `c` in force.
+    pub speed: f64,
+    /// `α` in force [rad].
+    pub turn: f64,
+    /// `β` in force [rad].
+    pub extension: f64,
+    /// Measured ZMP, x and y in the bearing foot's sole frame [m]; `None` when the feet carry too little.
+    pub zmp_in_support: Option<[f64; 2]>,
+    /// Planned ZMP, likewise [m]; `None` when there is no plan.
+    pub zmp_planned: Option<[f64; 2]>,
+    /// Of the measured ZMP to the edge of the support polygon [m], negative outside.
+    pub margin: Option<f64>,
+    /// Feedback angles added at the support ankle: roll, pitch [rad].
+    pub lean: [f64; 2],
+    /// Sum of the [`Fault`]s present, as [`Fault::sum`] makes it; bits that this version does not know may be set.
+    pub faults: u32,
+    /// Deadlines missed since the start.
+    pub missed: u32,
+    /// Computing time of the period [ns].
+    pub compute_ns: u64,
+}
+
+impl Fault {
+    /// Several faults as one number.
+    pub fn sum(faults: impl IntoIterator<Item = Fault>) -> u32 {
+        faults.into_iter().fold(0, |sum, fault| sum | fault.code())
+    }
+
+    /// The faults in such a number.
+    pub fn in_sum(sum: u32) -> impl Iterator<Item = Fault> {
+        Fault::ALL.iter().copied().filter(move |fault| sum & fault.code() != 0)
+    }
+}
+
+impl ReportMessage {
+    /// The report, if its codes are known and its numbers finite (but for those that may be NaN).
+    pub fn checked(&self) -> Result<Report, MessageFault> {
+        let check = Check("report");
+        let support = match self.support {
+            0 => Side::Right,
+            1 => Side::Left,
+            value => {
+                let (field, known) = ("support", "0 (right) 1 (left)");
+                return Err(MessageFault::UnknownCode { message: check.0, field, value, known });
+            }
+        };
+        let point = |field, values: &[f64; 2]| {
+            if values.iter().all(|value| value.is_nan()) { Ok(None) } else { check.numbers(field, values).map(Some) }
+        };
+        Ok(Report {
+            tick: self.tick,
+            time_ns: self.time_ns,
+            mode: check.code("mode", self.mode)?,
+            support,
+            half_step: self.half_step,
+            progress: check.number("progress", self.progress)?,
+            speed: check.number("speed", self.speed)?,
+            turn: check.number("turn", self.turn)?,
+            extension: check.number("extension", self.extension)?,
+            zmp_in_support: point("zmp_in_support", &self.zmp_in_support)?,
+            zmp_planned: point("zmp_planned", &self.zmp_planned)?,
+            margin: if self.margin.is_nan() { None } else { Some(check.number("margin", self.margin)?) },
+            lean: check.numbers("lean", &self.lean)?,
+            faults: self.faults,
+            missed: self.missed,
+            compute_ns: self.compute_ns,
+        })
+    }
+}
+
+impl From<&Report> for ReportMessage {
+    fn from(report: &Report) -> Self {
+        Self {
+            tick: report.tick,
+            time_ns: report.time_ns,
+            mode: report.mode.code(),
+            support: match report.support {
+                Side::Right => 0,
+                Side::Left => 1,
+            },
+            half_step: report.half_step,
+            progress: report.progress,
+            speed: report.speed,
+            turn: report.turn,
+            extension: report.extension,
+            zmp_in_support: report.zmp_in_support.unwrap_or([f64::NAN; 2]),
+            zmp_planned: report.zmp_planned.unwrap_or([f64::NAN; 2]),
+            margin: report.margin.unwrap_or(f64::NAN),
+            lean: report.lean,
+            faults: report.faults,
+            missed: report.missed,
+            compute_ns: report.compute_ns,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_unknown_survives_the_way_there_and_back() {
+        let known = Report {
+            tick: 1,
+            time_ns: 2,
+            mode: Mode::Walking,
+            support: Side::Left,
+            half_step: 3,
+            progress: 0.5,
+            speed: 1.0,
+            turn: 0.1,
+            extension: 0.0,
+            zmp_in_support: Some([0.01, -0.02]),
+            zmp_planned: Some([0.0, 0.0]),
+            margin: Some(-0.01),
+            lean: [0.0, 0.01],
+            faults: Fault::sum([Fault::MarginLost, Fault::DeadlineMissed]),
+            missed: 4,
+            compute_ns: 5,
+        };
+        let unknown = Report { zmp_in_support: None, zmp_planned: None, margin: None, ..known };
+        for report in [known, unknown] {
+            assert_eq!(ReportMessage::from(&report).checked(), Ok(report));
+        }
+        assert_eq!(Fault::in_sum(known.faults).collect::<Vec<_>>(), [Fault::MarginLost, Fault::DeadlineMissed]);
+    }
+
+    #[test]
+    fn half_a_point_is_none() {
+        let report = ReportMessage {
+            tick: 0,
+            time_ns: 0,
+            mode: 2,
+            support: 0,
+            half_step: 0,
+            progress: 0.0,
+            speed: 1.0,
+            turn: 0.0,
+            extension: 0.0,
+            zmp_in_support: [0.0, f64::NAN],
+            zmp_planned: [0.0; 2],
+            margin: 0.0,
+            lean: [0.0; 2],
+            faults: 0,
+            missed: 0,
+            compute_ns: 0,
+        };
+        assert_eq!(report.checked().unwrap_err().to_string(), "report: zmp_in_support is NaN; it must be finite");
+        let text = ReportMessage { support: 2, ..report }.checked().unwrap_err().to_string();
+        assert_eq!(text, "report: support is 2; known are 0 (right) 1 (left)");
+    }
+}

@@ -1,0 +1,69 @@
+//! A mismatch is refused with both values: of the protocol's version, and of the mechanism's fingerprint.
+
+mod common;
+
+use common::{MECHANISM, measurement, own_instance};
+use wire::{ConnectError, ControllerEnd, ObserverEnd, OperatorEnd, PROTOCOL, PlantEnd};
+
+#[test]
+fn another_mechanism_is_refused_whoever_comes_first() {
+    let other = 0xfeed;
+    let text = |error: ConnectError| error.to_string();
+    let refusal = |instance: &wire::Instance, theirs: &str, ours: &str| {
+        format!(
+            "service `halfstep/{}/setpoint` has mechanism {theirs}, this process has mechanism {ours}; \
+             start both sides with the same mechanism file",
+            instance.name()
+        )
+    };
+    let (instance, _leftovers) = own_instance();
+    let _plant = PlantEnd::connect(&instance, MECHANISM).unwrap();
+    assert_eq!(
+        ControllerEnd::connect(&instance, other).map_err(text).unwrap_err(),
+        refusal(&instance, "0x0123456789abcdef", "0x000000000000feed")
+    );
+
+    let (instance, _leftovers) = own_instance();
+    let _controller = ControllerEnd::connect(&instance, other).unwrap();
+    assert_eq!(
+        PlantEnd::connect(&instance, MECHANISM).map_err(text).unwrap_err(),
+        refusal(&instance, "0x000000000000feed", "0x0123456789abcdef")
+    );
+    assert!(OperatorEnd::connect(&instance).is_ok(), "operators need not know the mechanism");
+}
+
+#[test]
+fn another_version_is_refused_to_everyone() {
+    let (instance, _leftovers) = own_instance();
+    let newer = instance.clone().with_protocol(PROTOCOL + 1);
+    let _controller = ControllerEnd::connect(&instance, MECHANISM).unwrap();
+    let refusals = [
+        ("setpoint", PlantEnd::connect(&newer, MECHANISM).unwrap_err()),
+        ("setpoint", ControllerEnd::connect(&newer, MECHANISM).unwrap_err()),
+        ("request", OperatorEnd::connect(&newer).unwrap_err()),
+        ("report", ObserverEnd::connect(&newer).unwrap_err()),
+    ];
+    for (service, error) in refusals {
+        assert_eq!(
+            error.to_string(),
+            format!(
+                "service `halfstep/{}/{service}` has protocol {}, this process has protocol {}; \
+                 run the same version of halfstep on both sides",
+                instance.name(),
+                PROTOCOL,
+                PROTOCOL + 1
+            )
+        );
+    }
+}
+
+#[test]
+fn when_the_old_ones_have_gone_anything_goes() {
+    let (instance, _leftovers) = own_instance();
+    let mut plant = PlantEnd::connect(&instance, MECHANISM).unwrap();
+    plant.measurements.write(&measurement(1));
+    drop(plant);
+    let newer = instance.clone().with_protocol(PROTOCOL + 1);
+    let mut controller = ControllerEnd::connect(&newer, 0xfeed).unwrap();
+    assert_eq!(controller.measurements.newest(), None);
+}

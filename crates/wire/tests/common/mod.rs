@@ -1,0 +1,112 @@
+//! What the statements have in common: an instance of their own each, messages to send, and patience.
+
+#![allow(dead_code)]
+
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::{Duration, Instant};
+
+use model::Joint;
+use wire::{Instance, Leftovers, MeasurementMessage, ReportMessage, RequestMessage, SetpointMessage};
+
+pub const MECHANISM: u64 = 0x0123_4567_89ab_cdef;
+
+/// Much longer than anything here takes, even on a machine that does something else.
+pub const LONG: Duration = Duration::from_secs(30);
+
+/// An instance that nobody else uses, and the guard that removes it.
+pub fn own_instance() -> (Instance, Leftovers) {
+    static COUNT: AtomicU32 = AtomicU32::new(0);
+    let name = format!("test-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+    let instance = Instance::new(&name).unwrap();
+    let leftovers = instance.leftovers();
+    (instance, leftovers)
+}
+
+/// Polls until there is something.
+pub fn eventually<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
+    let began = Instant::now();
+    loop {
+        if let Some(value) = poll() {
+            return value;
+        }
+        assert!(began.elapsed() < LONG, "{what} did not happen");
+        std::thread::yield_now();
+    }
+}
+
+pub fn setpoint(tick: u64) -> SetpointMessage {
+    let value = tick as f64;
+    SetpointMessage {
+        tick,
+        time_ns: 10 * tick,
+        angles: [value; Joint::COUNT],
+        rates: [-value; Joint::COUNT],
+        feed_forward: [value / 2.0; Joint::COUNT],
+    }
+}
+
+pub fn measurement(tick: u64) -> MeasurementMessage {
+    let value = tick as f64;
+    MeasurementMessage {
+        tick,
+        time_ns: 10 * tick,
+        angles: [value; Joint::COUNT],
+        rates: [-value; Joint::COUNT],
+        wrench_right: [value; 6],
+        wrench_left: [-value; 6],
+        imu_orientation: [0.0, 1.0, 0.0, 0.0],
+        imu_rate: [value; 3],
+        motor_current: [value; Joint::COUNT],
+    }
+}
+
+pub fn request(turn: f64) -> RequestMessage {
+    RequestMessage {
+        not_before: 0,
+        present: RequestMessage::TURN,
+        intent: 0,
+        source: 0,
+        pad: 0,
+        turn,
+        speed: 0.0,
+        extension: 0.0,
+    }
+}
+
+pub fn report(tick: u64) -> ReportMessage {
+    ReportMessage {
+        tick,
+        time_ns: 0,
+        mode: 2,
+        support: 1,
+        half_step: 4,
+        progress: 0.25,
+        speed: 1.0,
+        turn: 0.1,
+        extension: 0.0,
+        zmp_in_support: [0.01, 0.02],
+        zmp_planned: [0.0; 2],
+        margin: 0.02,
+        lean: [0.0; 2],
+        faults: 0,
+        missed: 0,
+        compute_ns: 1500,
+    }
+}
+
+/// Names of files in shared memory and in the temporary folder that belong to an instance.
+pub fn files_of(instance: &Instance) -> Vec<String> {
+    let mark = format!("halfstep.{}.", instance.name());
+    let shared = std::fs::read_dir("/dev/shm").unwrap().flatten().map(|file| file.file_name());
+    let mut files: Vec<String> =
+        shared.map(|name| name.to_string_lossy().into_owned()).filter(|name| name.starts_with(&mark)).collect();
+    let users = std::fs::read_dir(std::env::temp_dir()).unwrap().flatten();
+    files.extend(
+        users
+            .filter(|folder| folder.file_name().to_string_lossy().starts_with("halfstep-"))
+            .map(|folder| folder.path().join(instance.name().as_str()))
+            .filter(|folder| folder.exists())
+            .map(|folder| folder.display().to_string()),
+    );
+    files
+}

@@ -1,0 +1,65 @@
+//! Messages have a fixed layout.
+//!
+//! Other languages lay out the same bytes by hand, and iceoryx2 compares only name, size and alignment: an exchange of
+//! two fields would go unnoticed. A change here needs a new `.vN` in the type name and a new `PROTOCOL`.
+
+use std::mem::{align_of, offset_of, size_of};
+
+use wire::{MeasurementMessage, ReplyMessage, ReportMessage, RequestMessage, SetpointMessage};
+
+/// Checks size and alignment, each field's offset, and that fields follow each other without a gap.
+macro_rules! assert_layout {
+    ($message:ident, $size:literal, { $($field:ident @ $offset:literal + $length:literal),+ $(,)? }) => {
+        assert_eq!(size_of::<$message>(), $size, "size of {}", stringify!($message));
+        assert_eq!(align_of::<$message>(), 8, "alignment of {}", stringify!($message));
+        let mut end = 0;
+        $(
+            assert_eq!(offset_of!($message, $field), $offset, "{}::{}", stringify!($message), stringify!($field));
+            assert_eq!(end, $offset, "padding before {}::{}", stringify!($message), stringify!($field));
+            end = $offset + $length;
+        )+
+        assert_eq!(end, $size, "padding at the end of {}", stringify!($message));
+        // Named one by one, so that a new field does not compile until it is listed above.
+        let _ = |message: $message| { let $message { $($field: _),+ } = message; };
+    };
+}
+
+#[test]
+fn setpoint() {
+    assert_layout!(SetpointMessage, 496, {
+        tick @ 0 + 8, time_ns @ 8 + 8, angles @ 16 + 160, rates @ 176 + 160, feed_forward @ 336 + 160,
+    });
+}
+
+#[test]
+fn measurement() {
+    assert_layout!(MeasurementMessage, 648, {
+        tick @ 0 + 8, time_ns @ 8 + 8, angles @ 16 + 160, rates @ 176 + 160, wrench_right @ 336 + 48,
+        wrench_left @ 384 + 48, imu_orientation @ 432 + 32, imu_rate @ 464 + 24, motor_current @ 488 + 160,
+    });
+}
+
+#[test]
+fn request() {
+    assert_layout!(RequestMessage, 48, {
+        not_before @ 0 + 8, present @ 8 + 4, intent @ 12 + 4, source @ 16 + 4, pad @ 20 + 4, turn @ 24 + 8,
+        speed @ 32 + 8, extension @ 40 + 8,
+    });
+}
+
+#[test]
+fn reply() {
+    assert_layout!(ReplyMessage, 48, {
+        verdict @ 0 + 4, reason @ 4 + 4, effect_half_step @ 8 + 8, turn @ 16 + 8, speed @ 24 + 8, extension @ 32 + 8,
+        intent @ 40 + 4, pad @ 44 + 4,
+    });
+}
+
+#[test]
+fn report() {
+    assert_layout!(ReportMessage, 136, {
+        tick @ 0 + 8, time_ns @ 8 + 8, mode @ 16 + 4, support @ 20 + 4, half_step @ 24 + 8, progress @ 32 + 8,
+        speed @ 40 + 8, turn @ 48 + 8, extension @ 56 + 8, zmp_in_support @ 64 + 16, zmp_planned @ 80 + 16,
+        margin @ 96 + 8, lean @ 104 + 16, faults @ 120 + 4, missed @ 124 + 4, compute_ns @ 128 + 8,
+    });
+}
