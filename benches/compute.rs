@@ -6,15 +6,22 @@
 use std::hint::black_box;
 use std::path::Path;
 
+use balance::{GroundSplit, LeanAt, PaperLean, zmp_by_speed_law};
 use criterion::{Criterion, criterion_group, criterion_main};
 use dynamics::{ArticulatedBody, Kinematics, NewtonEuler, Tree, mass_matrix, zmp};
+use gait::{NominalRow, NominalTable, at_speed};
 use model::{JointVector, Mechanism, Motion, PerJoint};
 use nalgebra::{Isometry3, Vector3};
-use plant::{Parameters, Plant, Setpoint};
+use plant::{Plant, Setpoint};
 
 fn mechanism() -> Mechanism {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../config/mechanism.toml");
     Mechanism::load(file).expect("the committed mechanism loads")
+}
+
+fn nominal() -> NominalTable {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../config/nominal_half_step.csv");
+    NominalTable::read_csv(&file).expect("the committed nominal loads")
 }
 
 /// Different in every joint, so that nothing is a special case.
@@ -58,20 +65,38 @@ fn dynamics(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// Whole half-steps of 61 instants.
+fn balance(criterion: &mut Criterion) {
+    let (mechanism, nominal) = (mechanism(), nominal());
+    let tree = Tree::new(&mechanism);
+    let mut group = criterion.benchmark_group("balance");
+
+    let split = |row: &NominalRow| GroundSplit { gravity: row.ground_gravity, dynamic: row.ground_dynamic };
+    let splits: Vec<GroundSplit> = nominal.rows.iter().map(split).collect();
+    group.bench_function("zmp_by_speed_law", |bencher| {
+        bencher.iter(|| zmp_by_speed_law(&splits, black_box(1.2)).map(|zmp| zmp.x + zmp.y).sum::<f64>());
+    });
+    let motions: Vec<Motion> = nominal.rows.iter().map(|row| at_speed(&row.motion, 1.2, 0.0)).collect();
+    group.bench_function("best_lean", |bencher| {
+        bencher.iter(|| PaperLean::best(&tree, &mechanism.sole, LeanAt::Ankle, black_box(&motions)));
+    });
+    group.finish();
+}
+
 fn plant(criterion: &mut Criterion) {
     let mechanism = mechanism();
     let mut group = criterion.benchmark_group("plant");
-    let one_step = Parameters { steps_per_period: 1, ..Parameters::default() };
+    let one_step = plant::Parameters { steps_per_period: 1, ..plant::Parameters::default() };
     let mut standing = Plant::new(&mechanism, &one_step, &Motion::default(), 2.5e-4, 1);
     group.bench_function("step_on_both_soles", |bencher| {
         bencher.iter(|| standing.step(black_box(&Setpoint::default())));
     });
-    let mut standing = Plant::new(&mechanism, &Parameters::default(), &Motion::default(), 1e-3, 1);
+    let mut standing = Plant::new(&mechanism, &plant::Parameters::default(), &Motion::default(), 1e-3, 1);
     group.bench_function("control_period_on_both_soles", |bencher| {
         bencher.iter(|| standing.step(black_box(&Setpoint::default())));
     });
     group.finish();
 }
 
-criterion_group!(benches, dynamics, plant);
+criterion_group!(benches, dynamics, balance, plant);
 criterion_main!(benches);

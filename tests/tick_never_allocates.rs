@@ -1,9 +1,9 @@
 //! The tick allocates nothing: walking, swapping feet, answering requests, braking, standing, and with bad measurements.
 //!
-//! Method: an allocator that counts, in a process of its own.
+//! Method: an allocator that counts what this thread asks of it.
 
 use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::cell::Cell;
 
 use controller::Intent;
 use gait::Request;
@@ -11,12 +11,14 @@ use halfstep_tests::walking::Walking;
 
 struct Counting;
 
-static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
+thread_local! {
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
 
 // SAFETY: hands everything to the system's allocator unchanged.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
         // SAFETY: the caller's promise is passed on.
         unsafe { System.alloc(layout) }
     }
@@ -31,12 +33,11 @@ unsafe impl GlobalAlloc for Counting {
 static ALLOCATOR: Counting = Counting;
 
 fn allocations(work: impl FnOnce()) -> usize {
-    let before = ALLOCATIONS.load(Ordering::Relaxed);
+    let before = ALLOCATIONS.get();
     work();
-    ALLOCATIONS.load(Ordering::Relaxed) - before
+    ALLOCATIONS.get() - before
 }
 
-/// One test only: others beside it would be counted too.
 #[test]
 fn whatever_happens() {
     assert!(allocations(|| drop(std::hint::black_box(vec![1]))) > 0, "the allocator does not count");

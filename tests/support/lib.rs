@@ -1,5 +1,7 @@
 //! What several statements share: the committed robot, and random motions with a seed.
 
+pub mod command_line;
+pub mod paper;
 pub mod walking;
 
 use std::path::PathBuf;

@@ -1,17 +1,19 @@
 //! Where the ground really pushes: the measured zero-moment point (DESIGN §5.1).
 
 use dynamics::{Kinematics, SupportPolygon, zmp};
-use model::{Mechanism, Side, Wrench};
-use nalgebra::{Isometry3, Vector2};
+use model::{Mechanism, Side, Sole, Wrench};
+use nalgebra::{Isometry3, Point3, Vector2};
 
 use crate::{Sensed, ZmpParameters};
 
-/// Estimates the ZMP from the wrenches on both feet.
+/// Estimates the ZMP from the wrenches on both feet. The wrenches are filtered, not the point: so the point always lies
+/// in the polygon of what bears, also while the weight goes from foot to foot.
 #[derive(Clone, Debug)]
 pub struct ZmpEstimator {
     parameters: ZmpParameters,
-    corners: [nalgebra::Point3<f64>; 4],
-    filtered: Option<Vector2<f64>>,
+    corners: [Point3<f64>; Sole::CORNERS],
+    /// Filtered wrenches on the bearing and on the swinging foot, each about its sole's origin in sole axes.
+    feet: Option<[Wrench; 2]>,
 }
 
 /// What the ground does, told in support coordinates.
@@ -21,53 +23,44 @@ pub struct Ground {
     pub zmp: Option<Vector2<f64>>,
     /// Signed distance to the edge of what bears [m]; −∞ in the air.
     pub margin: f64,
-    /// Vertical force on the bearing and on the swinging foot [N].
+    /// Vertical force on the bearing and on the swinging foot, filtered [N].
     pub loads: [f64; 2],
 }
 
 impl ZmpEstimator {
     /// An estimator that has seen nothing yet.
     pub fn new(mechanism: &Mechanism, parameters: ZmpParameters) -> Self {
-        Self { parameters, corners: mechanism.sole.corners().map(nalgebra::Point3::from), filtered: None }
+        Self { parameters, corners: mechanism.sole.corners().map(Point3::from), feet: None }
     }
 
     /// Absorbs a measurement, `dt` seconds after the last one.
     pub fn update(&mut self, sensed: &Sensed, kinematics: &Kinematics, mechanism: &Mechanism, dt: f64) -> Ground {
-        let loads = [sensed.bearing_foot.force.z, sensed.swinging_foot.force.z];
+        let now = [sensed.bearing_foot, sensed.swinging_foot];
+        let share = dt / (dt + self.parameters.time_constant);
+        let feet = self.feet.map_or(now, |feet| [0, 1].map(|foot| feet[foot] + (now[foot] - feet[foot]) * share));
+        self.feet = Some(feet);
+        let loads = feet.map(|foot| foot.force.z);
         let bears = loads.map(|load| load >= self.parameters.force_min);
 
-        // The swinging foot's wrench, told about O.
         let swinging_sole = kinematics.sole_to_world(mechanism, Side::Left);
         let mut total = Wrench::ZERO;
         if bears[0] {
-            total = total + sensed.bearing_foot;
+            total = total + feet[0];
         }
         if bears[1] {
-            total = total + told_from_origin(&sensed.swinging_foot, &swinging_sole);
+            total = total + told_from_origin(&feet[1], &swinging_sole);
         }
-        if total.force.z < self.parameters.force_min {
-            self.filtered = None;
-            return Ground { zmp: None, margin: f64::NEG_INFINITY, loads };
-        }
-
-        let measured = zmp(&total);
-        self.filtered = match (self.filtered, measured) {
-            (Some(filtered), Some(now)) => {
-                Some(filtered + (now - filtered) * (dt / (dt + self.parameters.time_constant)))
-            }
-            (_, now) => now,
-        };
+        let Some(point) = zmp(&total) else { return Ground { zmp: None, margin: f64::NEG_INFINITY, loads } };
 
         let right = self.corners.iter().filter(|_| bears[0]).map(|corner| corner.coords.xy());
         let left = self.corners.iter().filter(|_| bears[1]).map(|corner| (swinging_sole * corner).coords.xy());
-        let polygon = SupportPolygon::hull(right.chain(left));
-        let margin = self.filtered.map_or(f64::NEG_INFINITY, |point| polygon.margin(point));
-        Ground { zmp: self.filtered, margin, loads }
+        let margin = SupportPolygon::hull(right.chain(left)).margin(point);
+        Ground { zmp: Some(point), margin, loads }
     }
 
-    /// At a swap the same point is told from the other foot: begins anew rather than smear the jump of coordinates.
+    /// The other foot bears: the same wrenches, told from there.
     pub fn swap(&mut self) {
-        self.filtered = None;
+        self.feet = self.feet.map(|[bearing, swinging]| [swinging.mirrored(), bearing.mirrored()]);
     }
 }
 

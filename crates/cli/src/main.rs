@@ -1,3 +1,5 @@
 //! The `halfstep` binary.
 
-fn main() {}
+fn main() -> std::process::ExitCode {
+    halfstep::run()
+}

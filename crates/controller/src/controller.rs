@@ -9,14 +9,16 @@ use model::{Mechanism, Motion, Side};
 
 use crate::mode::Holding;
 use crate::watch::Watch;
-use crate::{Answer, Fault, Faults, Guard, Intent, Measurement, Mode, Parameters, Refusal, Setpoint, TickReport};
+use crate::{
+    Answer, Fault, Faults, Guard, Intent, Measurement, Mode, Parameters, Pattern, Refusal, Setpoint, TickReport,
+};
 
 /// The state of the controller. Everything is made in [`Controller::new`]; a tick allocates nothing.
 #[derive(Clone, Debug)]
 pub struct Controller {
     mechanism: Mechanism,
     tree: Tree,
-    walk: Walk,
+    pattern: Pattern,
     watch: Watch,
     kinematics: Kinematics,
     zmp_estimator: ZmpEstimator,
@@ -45,19 +47,21 @@ impl Controller {
         let tree = Tree::new(mechanism);
         let mut plan = Plan::new(mechanism, &tree);
         plan.update(&tree, &walk.motion());
+        let guard = Guard::new(mechanism, &walk.physical_motion().angles);
+        let pattern = Pattern::new(mechanism, walk, parameters.compensation);
         Ok(Self {
             watch: Watch::new(mechanism, parameters.watch),
             kinematics: Kinematics::default(),
             zmp_estimator: ZmpEstimator::new(mechanism, parameters.balance.zmp),
             ground: Ground { zmp: None, margin: f64::NEG_INFINITY, loads: [0.0; 2] },
             feedback: Feedback::new(mechanism, parameters.balance.feedback),
-            guard: Guard::new(mechanism, &walk.physical_motion().angles),
+            guard,
             mode: Mode::Walking,
             intent: Intent::Walk,
             holding: None,
             mechanism: mechanism.clone(),
             tree,
-            walk,
+            pattern,
             plan,
         })
     }
@@ -95,9 +99,9 @@ impl Controller {
         TickReport {
             setpoint,
             mode: self.mode,
-            half_step: self.walk.half_step(),
-            command: self.walk.command(),
-            speed: self.walk.speed().state().value,
+            half_step: self.pattern.half_step(),
+            command: self.pattern.command(),
+            speed: self.pattern.speed(),
             zmp_in_support: self.ground.zmp,
             zmp_planned: self.plan.zmp,
             margin: self.ground.margin,
@@ -121,8 +125,8 @@ impl Controller {
         }
 
         let sensed = Sensed::from_support(
-            self.walk.half_step().support,
-            self.walk.mirror(),
+            self.pattern.half_step().support,
+            self.pattern.mirror(),
             &measurement.angles,
             &measurement.rates,
             &measurement.feet,
@@ -143,10 +147,10 @@ impl Controller {
     fn advance(&mut self, dt: f64) -> Motion {
         let motion = match (self.mode, &mut self.holding) {
             (Mode::Walking, _) => {
-                if self.walk.advance(dt) {
+                if self.pattern.advance(dt) {
                     self.swap();
                 }
-                self.walk.motion()
+                self.pattern.motion()
             }
             (Mode::Holding, Some(holding)) => holding.advance(&self.tree, dt),
             _ => return Motion::default(),
@@ -157,11 +161,11 @@ impl Controller {
 
     /// A new half-step has begun, told from the other foot.
     fn swap(&mut self) {
-        self.feedback.swap(self.walk.mirror());
+        self.feedback.swap(self.pattern.mirror());
         self.zmp_estimator.swap();
         if self.intent != Intent::Walk {
             let pendulum_rate = self.plan.centre_of_mass.pendulum_rate();
-            self.holding = Some(Holding::begin(&self.tree, &self.walk.motion(), pendulum_rate));
+            self.holding = Some(Holding::begin(&self.tree, &self.pattern.motion(), pendulum_rate));
             self.mode = Mode::Holding;
         }
     }
@@ -171,10 +175,10 @@ impl Controller {
         if self.mode == Mode::Fallen {
             return self.guard.hold();
         }
-        match self.walk.half_step().support {
+        match self.pattern.half_step().support {
             Side::Right => self.guard.limit(asked, &self.plan.torques, dt, faults),
             Side::Left => {
-                let mirror = self.walk.mirror();
+                let mirror = self.pattern.mirror();
                 self.guard.limit(&asked.mirrored(mirror), &mirror.apply(&self.plan.torques), dt, faults)
             }
         }
@@ -188,21 +192,21 @@ impl Controller {
             _ => None,
         };
         if refusal.is_some() {
-            let half_step = self.walk.half_step().index;
+            let half_step = self.pattern.half_step().index;
             let admission = Admission {
                 verdict: Verdict::Refused,
                 reasons: [None; 3],
-                granted: self.walk.command(),
+                granted: self.pattern.command(),
                 effect_half_step: half_step,
             };
             return Answer { admission, intent: self.intent, refusal };
         }
-        let mut admission = self.walk.admit(request);
+        let mut admission = self.pattern.admit(request);
         if admission.verdict != Verdict::Refused
             && let Some(intent) = intent
         {
             if self.mode == Mode::Walking && intent != Intent::Walk {
-                admission.effect_half_step = admission.effect_half_step.max(self.walk.half_step().index + 1);
+                admission.effect_half_step = admission.effect_half_step.max(self.pattern.half_step().index + 1);
             }
             self.intent = intent;
         }

@@ -10,6 +10,7 @@ mod guard;
 mod measurement;
 mod mode;
 mod parameters;
+mod pattern;
 mod report;
 mod watch;
 
@@ -19,4 +20,5 @@ pub use guard::Guard;
 pub use measurement::Measurement;
 pub use mode::{Intent, Mode};
 pub use parameters::{Parameters, WatchParameters};
+pub use pattern::{Compensation, Pattern};
 pub use report::{Answer, Refusal, Setpoint, TickReport};

@@ -6,11 +6,15 @@ use balance::{FeedbackParameters, ZmpParameters};
 use gait::{GaitParameters, Limits, RampKind};
 use model::config::{self, ConfigErrors, Document, Table};
 
+use crate::Compensation;
+
 /// All of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters {
     /// How requests bend the walk, and how far.
     pub gait: GaitParameters,
+    /// How the modified half-step is kept in balance before any feedback.
+    pub compensation: Compensation,
     /// ZMP estimator and ankle feedback.
     pub balance: balance::Parameters,
     /// What counts as trouble.
@@ -45,6 +49,10 @@ impl Parameters {
         let root = document.root();
         let parameters = Self {
             gait: gait(&root.table("gait"), &root.table("limits")),
+            compensation: root
+                .table("gait")
+                .choice("compensation", [("none", Compensation::None), ("preview", Compensation::Preview)])
+                .unwrap_or(Compensation::None),
             balance: balance::Parameters { zmp: zmp(&root.table("zmp")), feedback: feedback(&root.table("feedback")) },
             watch: watch(&root.table("watch")),
         };

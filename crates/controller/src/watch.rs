@@ -46,7 +46,8 @@ impl Watch {
     ) -> Option<(&'m Measurement, Vector3<f64>)> {
         self.silence += dt;
         let good = measurement.and_then(|measurement| match measurement.up_in_trunk() {
-            _ if self.newest.is_some_and(|newest| measurement.tick < newest) => {
+            // After a long silence a plant that counts from the start again is a new one.
+            _ if !self.is_stale() && self.newest.is_some_and(|newest| measurement.tick < newest) => {
                 faults.insert(Fault::MeasurementOutOfOrder);
                 None
             }

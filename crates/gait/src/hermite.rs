@@ -1,5 +1,23 @@
 //! Quintic Hermite interpolation: what meets two neighbours in value, rate and acceleration, and so joins with C².
 
+use model::{Motion, PerJoint};
+
+/// The motion at `x` from 0 to 1 between two motions that are `h` seconds apart: C² where intervals join.
+pub fn interpolate(start: &Motion, end: &Motion, x: f64, h: f64) -> Motion {
+    let hermite = Hermite::new(x, h);
+    let jets = PerJoint::from_fn(|joint| {
+        hermite.between(
+            [start.angles[joint], start.rates[joint], start.accelerations[joint]],
+            [end.angles[joint], end.rates[joint], end.accelerations[joint]],
+        )
+    });
+    Motion {
+        angles: PerJoint::from_fn(|joint| jets[joint][0]),
+        rates: PerJoint::from_fn(|joint| jets[joint][1]),
+        accelerations: PerJoint::from_fn(|joint| jets[joint][2]),
+    }
+}
+
 /// The weights of both ends' values, rates and accelerations at one point of an interval, for any number of joints.
 pub(crate) struct Hermite {
     value: Weights,

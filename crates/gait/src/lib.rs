@@ -21,6 +21,7 @@ mod turn;
 mod walk;
 
 pub use half_step::HalfStep;
+pub use hermite::interpolate;
 pub use parameters::{GaitParameters, Limits};
 pub use ramp::{Ramp, RampKind, RampState};
 pub use request::{Admission, Command, Quantity, Reason, Request, Verdict};

@@ -1,8 +1,8 @@
 //! The nominal half-step as a table: one row per interval boundary.
 
-use model::{Joint, JointVector, Mirror, Motion, PerJoint, Wrench};
+use model::{Joint, JointVector, Mirror, Motion, Wrench};
 
-use crate::hermite::Hermite;
+use crate::hermite::interpolate;
 
 /// One single-support half-step on the right foot, at `n_int + 1` equally spaced instants from 0 to T.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,19 +101,7 @@ impl NominalTable {
     /// Needs a table that passes [`check`](Self::check), as all lookups do.
     pub fn at(&self, progress: f64) -> Motion {
         let (start, end, x) = self.around(progress);
-        let hermite = Hermite::new(x, self.duration / self.intervals() as f64);
-        let (start, end) = (&start.motion, &end.motion);
-        let jets = PerJoint::from_fn(|joint| {
-            hermite.between(
-                [start.angles[joint], start.rates[joint], start.accelerations[joint]],
-                [end.angles[joint], end.rates[joint], end.accelerations[joint]],
-            )
-        });
-        Motion {
-            angles: PerJoint::from_fn(|joint| jets[joint][0]),
-            rates: PerJoint::from_fn(|joint| jets[joint][1]),
-            accelerations: PerJoint::from_fn(|joint| jets[joint][2]),
-        }
+        interpolate(&start.motion, &end.motion, x, self.duration / self.intervals() as f64)
     }
 
     /// The wrench of the ground about O, in support axes, at `progress` and a constant `speed` `c`: the gravity part

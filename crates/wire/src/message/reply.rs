@@ -31,20 +31,16 @@ codes! {
         ExtensionLimit = 3 "the step extension is larger than this walk can do",
         /// A number is NaN or infinite.
         NotFinite = 4 "a number is not finite",
-        /// Nothing can be changed in this mode.
-        NotWalking = 5 "nothing can be changed in this mode",
+        /// The robot lies or stands, and neither can be undone yet.
+        NoWayBack = 5 "a walk cannot begin from a stand or from the ground yet: start a new one",
         /// Too many requests wait for their tick.
         QueueFull = 6 "too many requests are waiting for their tick",
         /// A code means nothing to this controller.
         NotUnderstood = 7 "a code in the request means nothing to this controller",
         /// The request asks for nothing.
         Empty = 8 "the request asks for nothing",
-        /// A newer request came before this one took effect.
-        Superseded = 9 "a newer request came before this one took effect",
-        /// A fault is latched; only `reset` helps.
-        FaultLatched = 10 "a fault is latched until reset",
         /// The controller is going away.
-        ShuttingDown = 11 "the controller is shutting down",
+        ShuttingDown = 9 "the controller is shutting down",
     }
 }
 

@@ -10,48 +10,38 @@ use super::fault::Check;
 codes! {
     /// What the controller is doing.
     Mode {
-        /// On both feet, ready to start.
-        Standing = 0 "standing",
-        /// From standing into the walk.
-        Starting = 1 "starting",
         /// Half-step after half-step.
-        Walking = 2 "walking",
-        /// From the walk to standing.
-        Stopping = 3 "stopping",
-        /// Keeping a posture.
-        Holding = 4 "holding",
+        Walking = 0 "walking",
+        /// On both feet: braking, then still.
+        Holding = 1 "holding",
         /// Lying, or about to.
-        Fallen = 5 "fallen",
+        Fallen = 2 "fallen",
     }
 }
 
 codes! {
     /// One thing that is not as it should be; its number is its bit in [`ReportMessage::faults`].
     Fault {
-        /// The measurement holds a number that is not finite.
-        MeasurementNotFinite = 1 "the measurement holds a number that is not finite",
+        /// A measurement holds a number that is not finite.
+        MeasurementNotFinite = 1 "a measurement holds a number that is not finite",
+        /// A measurement holds a number that no working sensor gives.
+        MeasurementAbsurd = 2 "a measurement holds a number that no working sensor gives",
         /// No new measurement has come for too long.
-        MeasurementStale = 2 "no new measurement has come for too long",
-        /// Measurements come, but their values stand still.
-        MeasurementFrozen = 4 "measurements come, but their values stand still",
+        MeasurementStale = 4 "no new measurement has come for too long",
         /// A measurement is older than one before it.
         MeasurementOutOfOrder = 8 "a measurement is older than one before it",
         /// A joint angle in the setpoint had to be held within its range.
         AngleLimited = 16 "a joint angle had to be held within its range",
         /// A joint rate in the setpoint had to be held within its limit.
         RateLimited = 32 "a joint rate had to be held within its limit",
-        /// The ZMP has left the support.
-        MarginLost = 64 "the zero-moment point has left the support",
+        /// The setpoint computed was not finite and the last good one was sent.
+        SetpointNotFinite = 64 "the setpoint was not finite; the last good one was sent",
         /// The feet carry too little for a ZMP estimate.
         InTheAir = 128 "the feet carry too little for a zero-moment point",
         /// The robot has fallen.
         Fallen = 256 "the robot has fallen",
         /// A deadline was missed in this period.
         DeadlineMissed = 512 "a deadline was missed",
-        /// The other process is gone.
-        PeerGone = 1024 "the plant is gone",
-        /// The setpoint computed was not finite and the last good one was sent.
-        SetpointNotFinite = 2048 "the setpoint was not finite; the last good one was sent",
     }
 }
 
@@ -225,7 +215,7 @@ mod tests {
             zmp_planned: Some([0.0, 0.0]),
             margin: Some(-0.01),
             lean: [0.0, 0.01],
-            faults: Fault::sum([Fault::MarginLost, Fault::DeadlineMissed]),
+            faults: Fault::sum([Fault::InTheAir, Fault::DeadlineMissed]),
             missed: 4,
             compute_ns: 5,
         };
@@ -233,7 +223,7 @@ mod tests {
         for report in [known, unknown] {
             assert_eq!(ReportMessage::from(&report).checked(), Ok(report));
         }
-        assert_eq!(Fault::in_sum(known.faults).collect::<Vec<_>>(), [Fault::MarginLost, Fault::DeadlineMissed]);
+        assert_eq!(Fault::in_sum(known.faults).collect::<Vec<_>>(), [Fault::InTheAir, Fault::DeadlineMissed]);
     }
 
     #[test]

@@ -1,0 +1,20 @@
+//! Preview: the centre of mass is planned over the feet of the coming half-steps (DESIGN §5.3).
+//!
+//! Vocabulary:
+//! * **walk frame**: the floor, origin and heading where the walk began.
+//! * **knot**: an instant at which the plan is computed, every [`KNOT`] seconds; between knots joints are interpolated.
+//! * **lead**: the plan is computed a little ahead of the motion, so that there are knots on both sides of now.
+
+mod cart_table;
+mod footprint;
+mod nominal_sway;
+mod planner;
+mod swing_path;
+mod whole_body;
+
+pub use cart_table::{CartState, CartTable};
+pub use footprint::{Footprint, SolePose};
+pub use nominal_sway::NominalSway;
+pub use planner::{KNOT, Preview};
+pub use swing_path::SwingPath;
+pub use whole_body::{Wanted, WholeBody};

@@ -1,0 +1,289 @@
+//! The preview compensator: keeps the modified feet, plans the centre of mass over them, realises both with the legs.
+
+use dynamics::{Kinematics, Tree};
+use gait::{Admission, Command, HalfStep, Request, Walk};
+use model::{JointVector, Mechanism, Motion, Side};
+use nalgebra::Vector2;
+
+use crate::preview::swing_path::smooth_step;
+use crate::preview::{CartState, CartTable, Footprint, NominalSway, SolePose, SwingPath, Wanted, WholeBody};
+
+/// Time between knots [s].
+pub const KNOT: f64 = 0.01;
+/// Knots looked ahead: 1.8 s, e^(−6) of the pendulum.
+const KNOTS_AHEAD: usize = 180;
+/// What a jerk costs against a ZMP error [m²/(m/s³)²].
+const JERK_WEIGHT: f64 = 1e-8;
+/// Share of the legs' length that is used at most: the knee keeps a bend of 19°.
+const LEG_SHARE_MAX: f64 = 0.987;
+/// How far the pelvis may be off the middle of both feet when the foot lands [m].
+const PELVIS_OFF_MIDDLE: f64 = 0.06;
+
+/// A walk whose centre of mass is planned. Takes the place of the plain [`Walk`].
+#[derive(Clone, Debug)]
+pub struct Preview {
+    mechanism: Mechanism,
+    tree: Tree,
+    sway: NominalSway,
+    cart: CartTable,
+    /// The walk at the newest knot.
+    walk: Walk,
+    /// The bearing foot at the newest knot.
+    footprint: Footprint,
+    swing: SwingPath,
+    hips: HipHeight,
+    com: [CartState; 2],
+    body: WholeBody,
+    /// The last four knots, oldest first; now is between the second and the third.
+    knots: [Knot; 4],
+    /// Since the second knot [s].
+    elapsed: f64,
+    /// Whether a leg was too short in one of the last knots.
+    pub unreachable: bool,
+}
+
+/// One realised instant.
+#[derive(Clone, Copy, Debug)]
+struct Knot {
+    /// Physical joints.
+    angles: JointVector,
+    /// Half-steps since the beginning, with their progress.
+    place: f64,
+    speed: f64,
+}
+
+/// The hips' height: the nominal's, lowered smoothly where a long step would stretch a leg.
+#[derive(Clone, Copy, Debug)]
+struct HipHeight {
+    lowered_at_start: f64,
+    lowered_at_end: f64,
+}
+
+impl Preview {
+    /// A walk at its very beginning.
+    pub fn new(mechanism: &Mechanism, walk: Walk) -> Self {
+        let tree = Tree::new(mechanism);
+        let sway = NominalSway::new(&tree, walk.table());
+        let cart = CartTable::new(sway.height_over_gravity, KNOT, KNOTS_AHEAD, JERK_WEIGHT);
+        let motion = walk.motion();
+        let kinematics = Kinematics::standing(&tree, &motion.angles);
+        let footprint = Footprint::first(walk.half_step().support);
+        let com = kinematics.com(&tree).xy();
+        let com_velocity = kinematics.com_velocity(&tree, &motion.rates).0.xy();
+        let swing = SwingPath::new(&SolePose::swinging(mechanism, &kinematics), |progress| {
+            swinging_sole(&tree, mechanism, &walk, progress)
+        });
+        let knot = Knot {
+            angles: walk.physical_motion().angles,
+            place: walk.half_step().progress,
+            speed: walk.speed().state().value,
+        };
+        let mut preview = Self {
+            mechanism: mechanism.clone(),
+            body: WholeBody::new(&tree, &motion.angles),
+            hips: HipHeight { lowered_at_start: 0.0, lowered_at_end: 0.0 },
+            com: cart_states(&footprint, com, com_velocity, Vector2::zeros()),
+            knots: [knot; 4],
+            elapsed: 0.0,
+            unreachable: false,
+            tree,
+            sway,
+            cart,
+            walk,
+            footprint,
+            swing,
+        };
+        // The second knot is the beginning; before it the motion came as it goes on.
+        preview.plan_knot();
+        let first = &mut preview.knots;
+        first[2] = first[3];
+        preview.plan_knot();
+        let before = motion.angles - motion.rates * KNOT;
+        preview.knots[0] = Knot {
+            angles: match footprint.side {
+                Side::Right => before,
+                Side::Left => preview.walk.mirror().apply(&before),
+            },
+            place: knot.place - knot.speed * KNOT / preview.walk.table().duration,
+            ..knot
+        };
+        preview.knots[1] = knot;
+        preview
+    }
+
+    /// See [`Walk::admit`].
+    pub fn admit(&mut self, request: &Request) -> Admission {
+        self.walk.admit(request)
+    }
+
+    /// What is in force.
+    pub fn command(&self) -> Command {
+        self.walk.command()
+    }
+
+    /// Moves on by `dt` [s], at most a nominal half-step, and says whether a new half-step began.
+    pub fn advance(&mut self, dt: f64) -> bool {
+        let before = self.half_step().index;
+        self.elapsed += dt.min(self.walk.table().duration).max(0.0);
+        while self.elapsed >= KNOT {
+            self.elapsed -= KNOT;
+            self.plan_knot();
+        }
+        self.half_step().index != before
+    }
+
+    /// Where the walk is now.
+    pub fn half_step(&self) -> HalfStep {
+        let place = self.place();
+        let newest = self.walk.half_step();
+        let index = place.floor();
+        let behind = newest.index - index as u64;
+        HalfStep {
+            index: index as u64,
+            support: if behind.is_multiple_of(2) { newest.support } else { newest.support.other() },
+            progress: place - index,
+        }
+    }
+
+    /// The speed factor of now.
+    pub fn speed(&self) -> f64 {
+        let [_, from, to, _] = &self.knots;
+        from.speed + (to.speed - from.speed) * self.elapsed / KNOT
+    }
+
+    /// What is asked now, in physical joints.
+    pub fn physical_motion(&self) -> Motion {
+        let [before, from, to, after] = &self.knots;
+        let state = |before: &Knot, here: &Knot, after: &Knot| Motion {
+            angles: here.angles,
+            rates: (after.angles - before.angles) * (0.5 / KNOT),
+            accelerations: (after.angles + before.angles - here.angles * 2.0) * (1.0 / (KNOT * KNOT)),
+        };
+        gait::interpolate(&state(before, from, to), &state(from, to, after), self.elapsed / KNOT, KNOT)
+    }
+
+    /// What is asked now, in support coordinates.
+    pub fn motion(&self) -> Motion {
+        match self.half_step().support {
+            Side::Right => self.physical_motion(),
+            Side::Left => self.physical_motion().mirrored(self.walk.mirror()),
+        }
+    }
+
+    /// The walk that is asked for, at the newest knot.
+    pub fn walk(&self) -> &Walk {
+        &self.walk
+    }
+
+    fn place(&self) -> f64 {
+        let [_, from, to, _] = &self.knots;
+        (from.place + (to.place - from.place) * self.elapsed / KNOT).max(0.0)
+    }
+
+    /// Plans and realises one more knot.
+    fn plan_knot(&mut self) {
+        // where the centre of mass goes, seen from the last knot
+        let wanted = self.wanted_zmp();
+        self.com = [0, 1].map(|axis| self.cart.advance(&self.com[axis], wanted[axis]));
+
+        // where the feet go
+        if self.walk.advance(KNOT) {
+            self.swap();
+        }
+
+        // the legs that do both
+        let half_step = self.walk.half_step();
+        let asked = self.walk.motion();
+        let kinematics = Kinematics::standing(&self.tree, &asked.angles);
+        let nominal = self.walk.table().at(half_step.progress);
+        let swinging = SolePose::swinging(&self.mechanism, &kinematics);
+        let pelvis_ahead = kinematics.rotation[PELVIS].column(0).into_owned();
+        let wanted = Wanted {
+            com: self.footprint.point_to_support(Vector2::new(self.com[0].x, self.com[1].x)),
+            hip_height: Kinematics::standing(&self.tree, &nominal.angles).origin[PELVIS].z
+                - self.hips.lowered(half_step.progress),
+            pelvis_yaw: pelvis_ahead.y.atan2(pelvis_ahead.x),
+            swinging: self.swing.at(half_step.progress, &swinging),
+        };
+        let reached = self.body.reach(&self.tree, &self.mechanism, &nominal.angles, &wanted);
+        self.unreachable = reached.is_err();
+        let angles = reached.map_or(self.knots[3].angles, |angles| match half_step.support {
+            Side::Right => angles,
+            Side::Left => self.walk.mirror().apply(&angles),
+        });
+        let knot =
+            Knot { angles, place: half_step.index as f64 + half_step.progress, speed: self.walk.speed().state().value };
+        self.knots.rotate_left(1);
+        self.knots[3] = knot;
+    }
+
+    /// Plays the walk ahead and weighs what the coming knots want of the ZMP: the sum for each axis of the walk frame.
+    fn wanted_zmp(&self) -> [f64; 2] {
+        let mut scout = self.walk.clone();
+        let mut footprint = self.footprint;
+        let mut landing = self.swing.landing;
+        let mut sum = Vector2::zeros();
+        for ahead in 0..self.cart.knots() {
+            if scout.advance(KNOT) {
+                footprint = footprint.next(&landing);
+                landing = swinging_sole(&self.tree, &self.mechanism, &scout, 1.0);
+            }
+            let beyond = self.sway.beyond_pendulum(scout.half_step().progress, scout.speed().state().value);
+            sum += footprint.point_to_walk(-beyond) * self.cart.gain(ahead);
+        }
+        [sum.x, sum.y]
+    }
+
+    /// A new half-step begins at the newest knot.
+    fn swap(&mut self) {
+        let landed = self.swing.landing;
+        let standing = landed.seen_from_landed();
+        self.footprint = self.footprint.next(&landed);
+        self.swing =
+            SwingPath::new(&standing, |progress| swinging_sole(&self.tree, &self.mechanism, &self.walk, progress));
+        self.hips = HipHeight {
+            lowered_at_start: self.hips.lowered_at_end,
+            lowered_at_end: lowering(&self.tree, &self.mechanism, &self.walk, &self.swing.landing),
+        };
+        self.body.swap(&self.tree, self.walk.mirror());
+    }
+}
+
+const PELVIS: model::Joint = dynamics::Leg(Side::Right).end();
+
+impl HipHeight {
+    fn lowered(&self, progress: f64) -> f64 {
+        self.lowered_at_start + (self.lowered_at_end - self.lowered_at_start) * smooth_step(progress)
+    }
+}
+
+/// By how much the hips must be lower than the nominal's when the foot has landed, for both legs to reach [m].
+fn lowering(tree: &Tree, mechanism: &Mechanism, walk: &Walk, landing: &SolePose) -> f64 {
+    let end = Kinematics::standing(tree, &walk.table().at(1.0).angles);
+    let hips = end.origin[PELVIS].z - mechanism.sole.ankle_height;
+    let leg = LEG_SHARE_MAX
+        * (mechanism.links[model::Joint::RightKnee].origin.norm()
+            + mechanism.links[model::Joint::RightHipPitch].origin.norm());
+    let hip_width = mechanism.links[model::Joint::LeftHipRoll].origin.y;
+    let spread = landing.position.xy() - Vector2::new(0.0, hip_width);
+    let reach = spread.norm() / 2.0 + PELVIS_OFF_MIDDLE;
+    (hips - (leg * leg - reach * reach).max(0.0).sqrt()).max(0.0)
+}
+
+/// The swinging sole of the modified half-step at a progress.
+fn swinging_sole(tree: &Tree, mechanism: &Mechanism, walk: &Walk, progress: f64) -> SolePose {
+    SolePose::swinging(mechanism, &Kinematics::standing(tree, &walk.motion_at(progress).angles))
+}
+
+/// Position, velocity and acceleration told in the walk's frame, along x and along y.
+fn cart_states(
+    footprint: &Footprint,
+    position: Vector2<f64>,
+    velocity: Vector2<f64>,
+    acceleration: Vector2<f64>,
+) -> [CartState; 2] {
+    let position = footprint.point_to_walk(position);
+    let velocity = footprint.direction_to_walk(velocity);
+    let acceleration = footprint.direction_to_walk(acceleration);
+    [0, 1].map(|axis| CartState::new(position[axis], velocity[axis], acceleration[axis]))
+}

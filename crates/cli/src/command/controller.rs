@@ -1,0 +1,66 @@
+//! `halfstep controller`: the process that walks.
+
+use gait::Start;
+use wire::ControllerEnd;
+
+use super::{InstanceOption, LoopOptions, PartOptions, print};
+use crate::configuration::{ConfigOptions, Errors};
+use crate::failure::{Failure, Outcome};
+use crate::inbox::Inbox;
+use crate::interrupt::Interrupt;
+use crate::record;
+use crate::run_controller::run_controller;
+use crate::summary::ControllerSummary;
+use crate::turns::Turns;
+
+/// Run the controller alone: it waits for its plant, then walks until it is asked otherwise
+#[derive(Clone, Debug, clap::Args)]
+pub struct Controller {
+    #[command(flatten)]
+    instance: InstanceOption,
+    #[command(flatten)]
+    config: ConfigOptions,
+    #[command(flatten)]
+    runs: LoopOptions,
+    #[command(flatten)]
+    part: PartOptions,
+}
+
+impl Controller {
+    pub fn run(self, json: bool) -> Result<Outcome, Failure> {
+        self.part.bind()?;
+        let interrupt = Interrupt::listen()?;
+
+        let mut errors = Errors::default();
+        let loaded = self.config.robot(&mut errors).zip(self.config.controller(&mut errors));
+        let (robot, parameters) = errors.finish(loaded)?;
+        let fingerprint = robot.mechanism.fingerprint;
+        let mut controller =
+            controller::Controller::new(&robot.mechanism, robot.nominal, &parameters, Start::default())
+                .map_err(Failure::bad_input)?;
+
+        let ControllerEnd { mut setpoints, measurements, requests, reports } =
+            ControllerEnd::connect(&self.instance.instance()?, fingerprint)?;
+        let clock = self.runs.clock();
+        let (mut record, record_end) = record::of_controller(clock, self.part.out.as_deref(), reports)?;
+        let mut turns = Turns::new(clock, measurements, "plant", self.runs.ticks(), interrupt);
+        let mut inbox = Inbox::new(requests);
+
+        let run = run_controller(&mut controller, &mut turns, &mut setpoints, &mut inbox, &mut record);
+        let requests = inbox.close();
+        drop(record);
+        let log_gaps = record_end.finish()?;
+        let run = run.map_err(Failure::new)?;
+
+        let summary = ControllerSummary {
+            ticks: run.ticks,
+            half_steps: run.half_steps,
+            mode: run.mode.map_or(String::new(), |mode| crate::exchange::report::mode(mode).text().to_owned()),
+            requests,
+            deadline_misses: run.missed,
+            log_gaps,
+        };
+        print(json, &summary)?;
+        Ok(Outcome::fine_if(run.mode != Some(controller::Mode::Fallen)))
+    }
+}

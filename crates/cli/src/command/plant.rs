@@ -1,0 +1,68 @@
+//! `halfstep plant`: the process that is the robot.
+
+use plant::Setpoint;
+use wire::PlantEnd;
+
+use super::{InstanceOption, LoopOptions, PartOptions, print};
+use crate::configuration::{ConfigOptions, Errors};
+use crate::failure::{Failure, Outcome};
+use crate::interrupt::Interrupt;
+use crate::record;
+use crate::run_plant::run_plant;
+use crate::summary::PlantSummary;
+use crate::turns::{PERIOD, Turns};
+
+/// Run the simulated robot alone: it is held as the walk begins until the controller moves it
+#[derive(Clone, Debug, clap::Args)]
+pub struct Plant {
+    #[command(flatten)]
+    instance: InstanceOption,
+    #[command(flatten)]
+    config: ConfigOptions,
+    #[command(flatten)]
+    runs: LoopOptions,
+    #[command(flatten)]
+    part: PartOptions,
+    /// Seed of the sensors' noise
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// End half a second after the robot has fallen
+    #[arg(long)]
+    end_when_fallen: bool,
+}
+
+impl Plant {
+    pub fn run(self, json: bool) -> Result<Outcome, Failure> {
+        self.part.bind()?;
+        let interrupt = Interrupt::listen()?;
+
+        let mut errors = Errors::default();
+        let loaded = self.config.robot(&mut errors).zip(self.config.plant(&mut errors));
+        let (robot, parameters) = errors.finish(loaded)?;
+        let start = robot.nominal.at(0.0);
+        let period = PERIOD.as_secs_f64();
+        let mut plant = plant::Plant::new(&robot.mechanism, &parameters, &start, period, self.seed);
+
+        let PlantEnd { setpoints, mut measurements } =
+            PlantEnd::connect(&self.instance.instance()?, robot.mechanism.fingerprint)?;
+        let clock = self.runs.clock();
+        let (mut record, record_end) = record::of_plant(clock, self.part.out.as_deref())?;
+        let mut turns = Turns::new(clock, setpoints, "controller", self.runs.ticks(), interrupt);
+
+        let stands = Setpoint { angles: start.angles, ..Setpoint::default() };
+        let run = run_plant(&mut plant, stands, &mut turns, &mut measurements, &mut record, self.end_when_fallen);
+        drop(record);
+        let log_gaps = record_end.finish()?;
+        let run = run.map_err(Failure::new)?;
+
+        let summary = PlantSummary {
+            ticks: run.ticks,
+            fell_at_s: run.fell_at.map(|tick| tick as f64 * period),
+            deadline_misses: run.missed,
+            log_gaps,
+            wall_s: run.wall_ns as f64 * 1e-9,
+        };
+        print(json, &summary)?;
+        Ok(Outcome::fine_if(run.fell_at.is_none()))
+    }
+}

@@ -1,0 +1,213 @@
+//! `halfstep synthesize`: makes the nominal half-step.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use gait::NominalTable;
+use model::Mechanism;
+use serde::Serialize;
+use synthesis::{LegPattern, Parameters, Recording, Report, synthesize};
+
+use super::{print_json, print_line};
+use crate::failure::{Failure, Outcome};
+use crate::picture;
+
+/// Make the nominal half-step: legs as prescribed or recorded, the trunk such that the ZMP stays under the ankle
+#[derive(Clone, Debug, clap::Args)]
+pub struct Synthesize {
+    /// The robot
+    #[arg(long, value_name = "FILE", default_value = "config/mechanism.toml")]
+    mechanism: PathBuf,
+    /// Where to write the half-step
+    #[arg(long, value_name = "FILE", default_value = "config/nominal_half_step.csv")]
+    out: PathBuf,
+    /// Shape of the legs' motion, recorded: hip and knee flexion over the gait cycle
+    #[arg(long, value_name = "FILE")]
+    recorded: Option<PathBuf>,
+    #[command(flatten)]
+    parameters: ParameterOptions,
+    /// Draw the half-step into this folder: stick diagram, and footprints with ZMP
+    #[arg(long, value_name = "DIR")]
+    figures: Option<PathBuf>,
+}
+
+/// What may differ from the default half-step.
+#[derive(Clone, Debug, clap::Args)]
+#[command(allow_negative_numbers = true)]
+struct ParameterOptions {
+    /// Distance between the feet at the swap [m]
+    #[arg(long, value_name = "M")]
+    step_length: Option<f64>,
+    /// Duration of the half-step [s]
+    #[arg(long, value_name = "S")]
+    duration: Option<f64>,
+    /// Greatest height of the swing sole [m]
+    #[arg(long, value_name = "M")]
+    clearance: Option<f64>,
+    /// Hips above the ground at the swap [m]
+    #[arg(long, value_name = "M")]
+    hip_height: Option<f64>,
+    /// How far the pelvis moves towards the support foot [m]
+    #[arg(long, value_name = "M")]
+    pelvis_sway: Option<f64>,
+    /// How far the pelvis stays behind the middle between the feet at the swap [m]
+    #[arg(long, value_name = "M")]
+    pelvis_setback: Option<f64>,
+    /// Height of the pendulum after whose motion the pelvis moves forward [m]
+    #[arg(long, value_name = "M")]
+    pendulum_height: Option<f64>,
+    /// Shoulder swing to either side [deg]
+    #[arg(long, value_name = "DEG")]
+    arm_swing: Option<f64>,
+    /// How far the elbows are bent [deg]
+    #[arg(long, value_name = "DEG")]
+    elbow_flexion: Option<f64>,
+    /// Intervals of the table
+    #[arg(long, value_name = "N")]
+    intervals: Option<usize>,
+}
+
+/// How well it came out; angles in degrees.
+#[derive(Debug, Serialize)]
+struct ReportInJson {
+    zmp_residual_mm: f64,
+    iterations: usize,
+    trunk_pitch_deg: [f64; 2],
+    trunk_roll_deg: [f64; 2],
+    knee_flexion_min_deg: f64,
+    swap_angle_rad: f64,
+    swap_rate_rad_per_s: f64,
+    out: PathBuf,
+}
+
+impl Synthesize {
+    pub fn run(self, json: bool) -> Result<Outcome, Failure> {
+        let mechanism = Mechanism::load(&self.mechanism).map_err(Failure::bad_input)?;
+        let pattern = match &self.recorded {
+            None => LegPattern::Pendulum,
+            Some(file) => LegPattern::Recorded(Recording::load(file).map_err(Failure::bad_input)?),
+        };
+        let made_by = self.command_line();
+        let synthesis =
+            synthesize(&mechanism, &pattern, &self.parameters.parameters(), &made_by).map_err(Failure::bad_input)?;
+
+        create_parent(&self.out)?;
+        synthesis.table.write_csv(&self.out).map_err(Failure::new)?;
+        if let Some(folder) = &self.figures {
+            draw(&synthesis.table, &mechanism, folder)?;
+        }
+
+        if json {
+            print_json(&ReportInJson::new(&synthesis.report, self.out))?;
+        } else {
+            print_line(in_words(&synthesis.report))?;
+            print_line(format_args!("written to {}", self.out.display()))?;
+        }
+        Ok(Outcome::Fine)
+    }
+
+    /// The command that makes the same table again.
+    fn command_line(&self) -> String {
+        let path = |path: &Path| quoted(&path.display().to_string());
+        let mut line = format!("halfstep synthesize --mechanism {} --out {}", path(&self.mechanism), path(&self.out));
+        if let Some(file) = &self.recorded {
+            line += &format!(" --recorded {}", path(file));
+        }
+        for (option, value) in self.parameters.given() {
+            line += &format!(" --{option} {value}");
+        }
+        line
+    }
+}
+
+impl ParameterOptions {
+    /// In radians, with defaults for what was not given.
+    fn parameters(&self) -> Parameters {
+        let default = Parameters::default();
+        Parameters {
+            step_length: self.step_length.unwrap_or(default.step_length),
+            duration: self.duration.unwrap_or(default.duration),
+            clearance: self.clearance.unwrap_or(default.clearance),
+            hip_height: self.hip_height.unwrap_or(default.hip_height),
+            pelvis_sway: self.pelvis_sway.unwrap_or(default.pelvis_sway),
+            pelvis_setback: self.pelvis_setback.unwrap_or(default.pelvis_setback),
+            pendulum_height: self.pendulum_height.unwrap_or(default.pendulum_height),
+            arm_swing: self.arm_swing.map_or(default.arm_swing, f64::to_radians),
+            elbow_flexion: self.elbow_flexion.map_or(default.elbow_flexion, f64::to_radians),
+            intervals: self.intervals.unwrap_or(default.intervals),
+        }
+    }
+
+    /// The options that were given, with their values.
+    fn given(&self) -> impl Iterator<Item = (&'static str, String)> {
+        [
+            ("step-length", self.step_length),
+            ("duration", self.duration),
+            ("clearance", self.clearance),
+            ("hip-height", self.hip_height),
+            ("pelvis-sway", self.pelvis_sway),
+            ("pelvis-setback", self.pelvis_setback),
+            ("pendulum-height", self.pendulum_height),
+            ("arm-swing", self.arm_swing),
+            ("elbow-flexion", self.elbow_flexion),
+        ]
+        .into_iter()
+        .map(|(option, value)| (option, value.map(|value| value.to_string())))
+        .chain([("intervals", self.intervals.map(|intervals| intervals.to_string()))])
+        .filter_map(|(option, value)| Some((option, value?)))
+    }
+}
+
+/// A word for the shell.
+fn quoted(word: &str) -> String {
+    let plain = |character: char| character.is_ascii_alphanumeric() || "/._-+=:,@".contains(character);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
+fn draw(table: &NominalTable, mechanism: &Mechanism, folder: &Path) -> Result<(), Failure> {
+    let pictures = [
+        ("nominal_stick.svg", picture::nominal_stick(table, mechanism)),
+        ("nominal_footprints.svg", picture::nominal_footprints(table, mechanism)),
+    ];
+    super::write_pictures(folder, &pictures)
+}
+
+fn create_parent(file: &Path) -> Result<(), Failure> {
+    let Some(folder) = file.parent() else { return Ok(()) };
+    fs::create_dir_all(folder).map_err(|error| Failure::new(format!("{}: {error}", folder.display())))
+}
+
+impl ReportInJson {
+    fn new(report: &Report, out: PathBuf) -> Self {
+        let degrees = |(min, max): (f64, f64)| [min.to_degrees(), max.to_degrees()];
+        Self {
+            zmp_residual_mm: report.residual * 1e3,
+            iterations: report.iterations,
+            trunk_pitch_deg: degrees(report.trunk_pitch),
+            trunk_roll_deg: degrees(report.trunk_roll),
+            knee_flexion_min_deg: report.knee_flexion_min.to_degrees(),
+            swap_angle_rad: report.swap_angle,
+            swap_rate_rad_per_s: report.swap_rate,
+            out,
+        }
+    }
+}
+
+fn in_words(report: &Report) -> String {
+    let range = |(min, max): (f64, f64)| format!("{:+.2}° to {:+.2}°", min.to_degrees(), max.to_degrees());
+    format!(
+        "residual |ZMP−O|  {:.4} mm after {} iterations\ntrunk pitch       {}\ntrunk roll        {}\n\
+         least knee bend   {:.1}°\nat the swap       {:.1e} rad and {:.1e} rad/s apart",
+        report.residual * 1e3,
+        report.iterations,
+        range(report.trunk_pitch),
+        range(report.trunk_roll),
+        report.knee_flexion_min.to_degrees(),
+        report.swap_angle,
+        report.swap_rate,
+    )
+}

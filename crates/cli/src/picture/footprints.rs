@@ -1,0 +1,90 @@
+//! The floor seen from above: where the feet stood, and where the ground reaction went (the style of the paper's
+//! figures, DESIGN §5.2).
+
+use model::Mechanism;
+
+use super::chart::{Chart, Map, Pen, Placed, Point, maps};
+use super::sole_outline::{draw_arrow_head, draw_sole};
+use super::thinning::thinned;
+use super::{COM, LEFT, RIGHT, ZMP};
+use crate::run_log::{PlantRow, RunLog};
+
+/// Between two points of a path [s]: less than 1 cm of the fastest walk.
+const BETWEEN: f64 = 0.01;
+/// A path that reaches no farther has no direction worth showing [m].
+const SPOT: f64 = 0.02;
+/// Largest canvas that a short walk is blown up to [px].
+const CANVAS: f64 = 1500.0;
+/// Least and greatest scale: soles stay visible in long walks, and short ones do not fill the wall [px/m].
+const SCALE: std::ops::RangeInclusive<f64> = 110.0..=420.0;
+
+/// Footprints to scale in the world, with the path of the ground's zero-moment point in single support and the
+/// projection of the centre of mass.
+pub fn footprints(log: &RunLog, mechanism: &Mechanism) -> String {
+    let time = |row: &PlantRow| row.time;
+    let (mut chart, com, zmp) = (Chart::new("x [m]", "y [m]"), Pen::solid(COM, 0.8), Pen::solid(ZMP, 0.9));
+    let prints = log.footprints(mechanism);
+    for print in &prints {
+        draw_sole(&mut chart, mechanism, print.side, &print.sole_to_world);
+    }
+    chart.line(thinned(&log.plant, BETWEEN, time).map(|row| [row.com_in_world.x, row.com_in_world.y]), com);
+
+    for half_step in log.half_steps() {
+        let (first, last) = (&half_step[0], &half_step[half_step.len() - 1]);
+        let from = log.plant.partition_point(|row| row.time < first.time);
+        let to = log.plant.partition_point(|row| row.time <= last.time);
+        let path: Vec<Point> = thinned(&log.plant[from..to], BETWEEN, time)
+            .filter(|row| row.bears_alone(first.support))
+            .filter_map(|row| row.zmp_in_world.map(|zmp| [zmp.x, zmp.y]))
+            .collect();
+        draw_path(&mut chart, &path, zmp);
+    }
+
+    chart.key_area("right sole", RIGHT);
+    chart.key_area("left sole", LEFT);
+    chart.key_line("ZMP, single support", zmp);
+    chart.key_line("centre of mass", com);
+    let measures = log.measures(mechanism);
+    let mut title = format!(
+        "Footprints: {} half-steps, {:.1} m, heading {:+.0}°",
+        measures.half_steps, measures.distance_m, measures.heading_deg
+    );
+    if let Some(fall) = log.falls().next() {
+        title += &format!("; it fell at {fall:.1} s");
+    }
+    let scale = (CANVAS / chart.span().max(0.1)).clamp(*SCALE.start(), *SCALE.end());
+    maps(&title, Placed::Down, vec![Map { chart, scale }])
+}
+
+/// A path with an arrow head at its end, unless it is but a spot.
+fn draw_path(chart: &mut Chart, path: &[Point], pen: Pen) {
+    chart.line(path.iter().copied(), pen);
+    // Far enough before the tip that noise does not turn it round.
+    let Some((&tip, &before)) = path.last().zip(path.get(path.len() * 4 / 5)) else { return };
+    let reach = path.iter().map(|point| (point[0] - tip[0]).hypot(point[1] - tip[1])).fold(0.0, f64::max);
+    if reach > SPOT {
+        draw_arrow_head(chart, tip, [tip[0] - before[0], tip[1] - before[1]], 0.018, pen.colour);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run_log::synthetic;
+
+    #[test]
+    fn every_footprint_is_drawn_once() {
+        let svg = footprints(&synthetic::log(7, 0.1), &synthetic::mechanism());
+        let soles = |colour: &str| {
+            let fill = format!("fill=\"{}\"", colour.to_lowercase());
+            svg.split("<path").filter(|path| path.contains(&fill) && path.contains(" Z")).count()
+        };
+        // It begins on both feet; then left and right land in turn, the left one first.
+        assert_eq!((soles(RIGHT), soles(LEFT)), (4, 5));
+    }
+
+    #[test]
+    fn a_run_that_ended_before_it_began_has_a_picture() {
+        assert!(footprints(&RunLog::default(), &synthetic::mechanism()).starts_with("<svg"));
+    }
+}

@@ -1,0 +1,52 @@
+//! Fewer points for the same picture.
+
+use super::chart::Point;
+
+/// More points than this are not drawn of one curve: least and greatest of each of half as many spans of time.
+const POINTS: usize = 3000;
+
+/// Elements about `interval` apart; `time` says when each was [s].
+pub fn thinned<R>(rows: &[R], interval: f64, time: impl Fn(&R) -> f64) -> impl Iterator<Item = &R> {
+    let step = match rows {
+        [first, .., last] if time(last) > time(first) => interval * rows.len() as f64 / (time(last) - time(first)),
+        _ => 1.0,
+    };
+    rows.iter().step_by((step as usize).max(1))
+}
+
+/// The same curve with fewer points: of each span of time its least and its greatest value, in their order.
+pub fn outlined(points: &[Point]) -> Vec<Point> {
+    let span = (2 * points.len()).div_ceil(POINTS);
+    if span <= 2 {
+        return points.to_vec();
+    }
+    points
+        .chunks(span)
+        .flat_map(|span| {
+            let finite = || span.iter().enumerate().filter(|(_, point)| point[1].is_finite());
+            let by_value = |a: &(usize, &Point), b: &(usize, &Point)| a.1[1].total_cmp(&b.1[1]);
+            match (finite().min_by(by_value), finite().max_by(by_value)) {
+                (Some(least), Some(greatest)) if least.0 <= greatest.0 => [*least.1, *greatest.1],
+                (Some(least), Some(greatest)) => [*greatest.1, *least.1],
+                _ => [span[0]; 2],
+            }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spike_of_one_tick_survives_thinning_and_gaps_stay_gaps() {
+        let mut points: Vec<Point> = (0..60_000).map(|tick| [f64::from(tick) * 1e-3, 0.0]).collect();
+        points[31_234][1] = -0.5;
+        points[40_000..41_000].iter_mut().for_each(|point| point[1] = f64::NAN);
+        let thinned = outlined(&points);
+        assert!(thinned.len() <= POINTS + 2, "{}", thinned.len());
+        assert!(thinned.contains(&[31.234, -0.5]));
+        assert!(thinned.iter().any(|point| point[1].is_nan()));
+        assert!(thinned.windows(2).all(|pair| pair[0][0] <= pair[1][0]), "time goes on");
+    }
+}

@@ -1,0 +1,76 @@
+//! Both soles with every half-step's zero-moment point laid over each other: how much of the sole the walk uses.
+
+use dynamics::Tree;
+use model::{Mechanism, Side};
+use nalgebra::{Isometry3, Point3};
+
+use super::chart::{Chart, Map, Pen, Placed, Point, maps};
+use super::sole_outline::draw_sole;
+use super::thinning::thinned;
+use super::{LEFT, PLANNED, RIGHT, ZMP};
+use crate::run_log::RunLog;
+
+/// Between two points of a path [s].
+const BETWEEN: f64 = 0.004;
+/// Progress in which a plan concerns one sole alone: around the swap the planned point goes from foot to foot.
+const WELL_WITHIN: std::ops::Range<f64> = 0.05..0.95;
+/// [px/m]
+const SCALE: f64 = 3200.0;
+const GROUND_PEN: Pen = Pen::solid(ZMP, 0.5);
+const PLANNED_PEN: Pen = Pen::solid(PLANNED, 1.4);
+
+/// The ground's true zero-moment point and the planned one, of all half-steps, in the sole that bears alone. The left sole
+/// is above the right one, as on one's own feet that point to the right.
+pub fn zmp_in_sole(log: &RunLog, mechanism: &Mechanism) -> String {
+    let [mut right, mut left] = Side::BOTH.map(|side| chart(log, mechanism, side));
+    right.x_label = "x in the sole [m]".into();
+    // One below the other they compare at sight if they show the same range.
+    left.include(&right.extent());
+    right.include(&left.extent());
+    left.key_area("left sole", LEFT);
+    left.key_area("right sole", RIGHT);
+    left.key_line("ZMP of the ground", GROUND_PEN);
+    left.key_line("ZMP planned, off the swaps", PLANNED_PEN);
+    let title = "Zero-moment point in the sole that bears alone, all half-steps";
+    maps(title, Placed::Down, [left, right].map(|chart| Map { chart, scale: SCALE }).into())
+}
+
+fn chart(log: &RunLog, mechanism: &Mechanism, side: Side) -> Chart {
+    let tree = Tree::new(mechanism);
+    let mut chart = Chart::new("", "y in the sole [m]");
+    draw_sole(&mut chart, mechanism, side, &Isometry3::identity());
+    // On the left foot, support coordinates are mirrored.
+    let sign = if side == Side::Left { -1.0 } else { 1.0 };
+    for half_step in log.half_steps().filter(|half_step| half_step[0].support == side) {
+        let (mut planned, mut ground): (Vec<Point>, Vec<Point>) = Default::default();
+        for row in thinned(half_step, BETWEEN, |row| row.time) {
+            let Some(plant) = log.plant_at(row.time).filter(|plant| plant.bears_alone(side)) else { continue };
+            if WELL_WITHIN.contains(&row.progress) {
+                planned.extend(row.zmp_planned.map(|zmp| [zmp.x, sign * zmp.y]));
+            }
+            let to_sole = plant.footprint(mechanism, &tree, side).sole_to_world.inverse();
+            ground.extend(
+                plant.zmp_in_world.map(|zmp| to_sole * Point3::new(zmp.x, zmp.y, 0.0)).map(|zmp| [zmp.x, zmp.y]),
+            );
+        }
+        chart.line(planned, PLANNED_PEN);
+        chart.line(ground, GROUND_PEN);
+    }
+    chart
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run_log::synthetic;
+
+    #[test]
+    fn a_point_under_the_ankle_stays_there_wherever_the_foot_goes() {
+        // The log's zero-moment point is under the right ankle: on the left foot that is 0.19 m to the right.
+        let (log, mechanism) = (synthetic::log(6, 0.2), synthetic::mechanism());
+        let [right, left] = Side::BOTH.map(|side| chart(&log, &mechanism, side).extent());
+        let sole = &mechanism.sole;
+        assert_eq!(right, [[-sole.behind, -sole.half_width], [sole.ahead, sole.half_width]]);
+        assert!((left[0][1] + 0.19).abs() < 1e-9 && left[1] == right[1], "{left:?}");
+    }
+}

@@ -1,0 +1,48 @@
+//! The progress of a walk, on a terminal.
+
+use indicatif::{ProgressBar, ProgressStyle};
+use wire::Report;
+
+/// A line that follows the walk; nothing if stderr is no terminal.
+pub struct Progress {
+    bar: ProgressBar,
+}
+
+impl Progress {
+    /// For a walk of so many ticks, or without end.
+    pub fn new(ticks: Option<u64>) -> Self {
+        let (bar, template) = match ticks {
+            Some(ticks) => (ProgressBar::new(ticks), "{bar:20} {msg}"),
+            None => (ProgressBar::no_length(), "{spinner} {msg}"),
+        };
+        // The templates are constant and right.
+        let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+        Self { bar: bar.with_style(style) }
+    }
+
+    /// Shows where the walk is.
+    pub fn show(&self, report: &Report) {
+        let margin = report.margin.map_or("   –".to_owned(), |margin| format!("{:4.0}", margin * 1e3));
+        self.bar.set_position(report.tick + 1);
+        self.bar.set_message(format!(
+            "{:6.1} s  half-step {:3}  speed {:.2}  turn {:+5.1}°  extension {:+5.1}°  margin {margin} mm  {}",
+            (report.tick + 1) as f64 * crate::turns::PERIOD.as_secs_f64(),
+            report.half_step,
+            report.speed,
+            report.turn.to_degrees(),
+            report.extension.to_degrees(),
+            report.mode,
+        ));
+    }
+
+    /// Says something above the line.
+    pub fn say(&self, text: &str) {
+        self.bar.suspend(|| eprintln!("{text}"));
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}

@@ -1,0 +1,59 @@
+//! The controller's loop: wait, read, tick, write.
+
+use controller::{Controller, Mode};
+use runtime::now_ns;
+use wire::{MeasurementMessage, NewestWriter, SetpointMessage};
+
+use crate::exchange;
+use crate::inbox::Inbox;
+use crate::record::{ControllerEntry, Record};
+use crate::turns::{PERIOD, PeerSilent, Turns};
+
+/// What there is to say at the end.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ControllerRun {
+    /// Control periods.
+    pub ticks: u64,
+    /// Missed deadlines.
+    pub missed: u64,
+    /// Half-steps completed.
+    pub half_steps: u64,
+    /// What it was doing at last; `None` if it never began.
+    pub mode: Option<Mode>,
+}
+
+/// Runs until the turns end.
+///
+/// # Errors
+/// In lockstep the plant has been silent for too long.
+pub fn run_controller(
+    controller: &mut Controller,
+    turns: &mut Turns<MeasurementMessage>,
+    setpoints: &mut NewestWriter<SetpointMessage>,
+    inbox: &mut Inbox,
+    record: &mut Record<ControllerEntry>,
+) -> Result<ControllerRun, PeerSilent> {
+    let mut run = ControllerRun::default();
+    while let Some(turn) = turns.wait(|| inbox.collect())? {
+        let time_ns = now_ns();
+        run.missed += turn.missed;
+
+        let measurement = exchange::measurement::for_controller(&turn.message);
+        inbox.collect();
+        let asked = inbox.due(turn.tick);
+
+        let dt = turn.periods as f64 * PERIOD.as_secs_f64();
+        let request = asked.as_ref().map(|asked| (&asked.request, asked.intent));
+        let report = controller.tick(dt, Some(&measurement), request);
+
+        setpoints.write(&exchange::setpoint::message(turn.message.tick, time_ns, &report.setpoint));
+        let compute_ns = now_ns() - time_ns;
+
+        inbox.answer(asked, &report);
+        let (late, missed) = (turn.missed > 0, run.missed);
+        record.push(ControllerEntry { tick: turn.tick, time_ns, compute_ns, late, missed, report });
+        let (half_steps, mode) = (report.half_step.index, Some(report.mode));
+        run = ControllerRun { ticks: turn.tick + 1, missed, half_steps, mode };
+    }
+    Ok(run)
+}

@@ -1,0 +1,131 @@
+//! What is logged of the plant and of the controller at one tick.
+
+use model::{Joint, JointVector, Side};
+use nalgebra::{Isometry3, Vector2, Vector3};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use super::columns;
+
+/// Below this load a foot bears nothing that a zero-moment point could be told from [N].
+const LOAD_MIN: f64 = 50.0;
+/// A foot with a smaller share of the other's load only touches.
+const UNLOADED_SHARE: f64 = 0.02;
+
+/// A line of one of the log's files.
+pub trait Row: Serialize + DeserializeOwned {
+    /// Name of the file within the run's folder.
+    const FILE: &str;
+
+    /// The names of the columns, in the order of the fields; each vector takes as many as it has components.
+    fn columns() -> Vec<String>;
+}
+
+/// The simulated robot at one tick: the truth, not what its sensors say.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlantRow {
+    /// Since the start of the run [s].
+    pub time: f64,
+    /// Ticks since the start.
+    pub tick: u64,
+    /// Pose of the right sole: maps sole coordinates to world coordinates.
+    #[serde(with = "columns::pose")]
+    pub right_sole_to_world: Isometry3<f64>,
+    /// Of the physical joints [rad].
+    #[serde(with = "columns::joints")]
+    pub angles: JointVector,
+    /// Vertical force of the ground on the right and on the left foot [N].
+    pub loads: [f64; 2],
+    /// Centre of mass in the world [m].
+    #[serde(with = "columns::vector")]
+    pub com_in_world: Vector3<f64>,
+    /// Where the ground reaction of both feet acts on the floor, in the world [m]; `None` in the air.
+    #[serde(with = "columns::maybe_point")]
+    pub zmp_in_world: Option<Vector2<f64>>,
+    /// Angle of the trunk against the vertical [rad].
+    pub trunk_tilt: f64,
+    /// Whether the robot has fallen.
+    #[serde(with = "columns::flag")]
+    pub fallen: bool,
+}
+
+/// What the controller said at one tick.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ControllerRow {
+    /// Since the start of the run [s].
+    pub time: f64,
+    /// Ticks since the start.
+    pub tick: u64,
+    /// What it was doing, in a word: `walking`.
+    pub mode: String,
+    /// The bearing foot.
+    pub support: Side,
+    /// Half-steps completed before the present one.
+    pub half_step: u64,
+    /// `s`: how much of the present half-step is done, 0 to 1.
+    pub progress: f64,
+    /// `c` of this instant, on its ramp to the one in force.
+    pub speed: f64,
+    /// `α` in force [rad]; degrees in the file.
+    #[serde(with = "columns::degrees")]
+    pub turn_command: f64,
+    /// `c` in force.
+    pub speed_command: f64,
+    /// `β` in force [rad]; degrees in the file.
+    #[serde(with = "columns::degrees")]
+    pub extension_command: f64,
+    /// Measured ZMP in support coordinates [m]; `None` when the feet carry too little.
+    #[serde(with = "columns::maybe_point")]
+    pub zmp_measured: Option<Vector2<f64>>,
+    /// Planned ZMP, likewise; `None` when there is no plan.
+    #[serde(with = "columns::maybe_point")]
+    pub zmp_planned: Option<Vector2<f64>>,
+    /// Signed distance of the measured ZMP to the edge of what bears [m], negative outside; `None` without ground.
+    pub margin: Option<f64>,
+    /// Compensation at the support ankle about x [rad]; degrees in the file.
+    #[serde(with = "columns::degrees")]
+    pub lean_roll: f64,
+    /// Compensation at the support ankle about y [rad]; degrees in the file.
+    #[serde(with = "columns::degrees")]
+    pub lean_pitch: f64,
+    /// One bit for each fault present.
+    pub faults: u32,
+    /// Computing time of the tick [ns].
+    pub compute_ns: u64,
+    /// Deadlines missed since the start.
+    pub missed: u64,
+}
+
+impl PlantRow {
+    /// Whether the foot on `side` carries the robot, and the other one next to nothing.
+    pub fn bears_alone(&self, side: Side) -> bool {
+        let other = self.loads[side.other().index()];
+        self.loads[side.index()] > LOAD_MIN && other < UNLOADED_SHARE * self.loads[side.index()]
+    }
+}
+
+impl Row for PlantRow {
+    const FILE: &str = "plant.csv";
+
+    fn columns() -> Vec<String> {
+        let before = ["t_s", "tick", "right_sole_x_m", "right_sole_y_m", "right_sole_z_m"];
+        let rotation = ["right_sole_qw", "right_sole_qx", "right_sole_qy", "right_sole_qz"];
+        let joints = Joint::ALL.map(|joint| format!("joint_{:02}_angle_rad", joint.number()));
+        let after = ["load_right_n", "load_left_n", "com_x_m", "com_y_m", "com_z_m", "zmp_x_m", "zmp_y_m"];
+        let state = ["trunk_tilt_rad", "fallen"];
+        let (head, tail) = (before.into_iter().chain(rotation), after.into_iter().chain(state));
+        head.map(String::from).chain(joints).chain(tail.map(String::from)).collect()
+    }
+}
+
+impl Row for ControllerRow {
+    const FILE: &str = "controller.csv";
+
+    fn columns() -> Vec<String> {
+        let place = ["t_s", "tick", "mode", "support", "half_step", "progress"];
+        let command = ["speed", "turn_command_deg", "speed_command", "extension_command_deg"];
+        let balance = ["zmp_measured_x_m", "zmp_measured_y_m", "zmp_planned_x_m", "zmp_planned_y_m", "margin_m"];
+        let health = ["lean_roll_deg", "lean_pitch_deg", "faults", "compute_ns", "missed"];
+        place.into_iter().chain(command).chain(balance).chain(health).map(String::from).collect()
+    }
+}

@@ -1,0 +1,187 @@
+//! Scripts: requests with their times, one JSON object per line.
+//!
+//! ```text
+//! {"t": 1.5, "turn_deg": 10, "speed": 1.2, "extension_deg": 0, "intent": "walk"}
+//! ```
+//!
+//! `t` is the time since the beginning [s] and must not decrease; without it the request is for at once. Of the others at
+//! least one must be there. Empty lines are skipped.
+
+use std::time::Duration;
+
+use serde::{Deserialize, Deserializer};
+use wire::{Request, Source};
+
+use crate::turns::PERIOD;
+
+/// One line: a request and its time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// Since the beginning; `None` is at once.
+    pub time: Option<Duration>,
+    /// What is asked; whoever sends it says not before which tick.
+    pub request: Request,
+}
+
+/// Reads a script line by line.
+#[derive(Clone, Debug)]
+pub struct Reader {
+    name: String,
+    line: u64,
+    time: f64,
+}
+
+/// What is wrong with a line.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{name}:{line}: {problem}")]
+pub struct ScriptError {
+    /// The file.
+    pub name: String,
+    /// The line, from 1.
+    pub line: u64,
+    /// What is wrong, and what would be right.
+    pub problem: String,
+}
+
+/// The line as it is written.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Line {
+    t: Option<f64>,
+    turn_deg: Option<f64>,
+    speed: Option<f64>,
+    extension_deg: Option<f64>,
+    #[serde(default, deserialize_with = "intent")]
+    intent: Option<wire::Intent>,
+}
+
+const EXAMPLE: &str = r#"write e.g. {"t":1.5,"turn_deg":10,"speed":1.2,"extension_deg":0,"intent":"walk"}"#;
+/// More than anyone walks; what is later is a mistake of unit.
+const TIME_MAX: f64 = 1e6;
+
+impl Reader {
+    /// Before the first line of a file with that name.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self { name: name.into(), line: 0, time: 0.0 }
+    }
+
+    /// The number of the last line that was read, from 1.
+    pub fn line(&self) -> u64 {
+        self.line
+    }
+
+    /// Reads the next line; `None` if it is empty.
+    ///
+    /// # Errors
+    /// The line is no request. The next one may be.
+    pub fn read(&mut self, text: &str) -> Option<Result<Step, ScriptError>> {
+        self.line += 1;
+        let text = text.trim();
+        let problem = |problem| ScriptError { name: self.name.clone(), line: self.line, problem };
+        (!text.is_empty()).then(|| step(text, &mut self.time).map_err(problem))
+    }
+
+    /// Reads a whole script.
+    ///
+    /// # Errors
+    /// Every line that is no request.
+    pub fn read_all(name: impl Into<String>, text: &str) -> Result<Vec<Step>, Vec<ScriptError>> {
+        let mut reader = Self::new(name);
+        let (mut steps, mut errors) = (Vec::new(), Vec::new());
+        for line in text.lines().filter_map(|line| reader.read(line)) {
+            match line {
+                Ok(step) => steps.push(step),
+                Err(error) => errors.push(error),
+            }
+        }
+        if errors.is_empty() { Ok(steps) } else { Err(errors) }
+    }
+}
+
+impl Step {
+    /// The tick that its time is, for a beginning at tick 0; 0 is at once.
+    pub fn tick(&self) -> u64 {
+        self.time.map_or(0, |time| (time.as_secs_f64() / PERIOD.as_secs_f64()).round() as u64)
+    }
+}
+
+/// Reads a line; `last` is the time of the line before.
+fn step(text: &str, last: &mut f64) -> Result<Step, String> {
+    // An array would do for serde, too, but nobody could read it.
+    if !text.starts_with('{') {
+        return Err(format!("not a JSON object; {EXAMPLE}"));
+    }
+    let line: Line = serde_json::from_str(text).map_err(|error| {
+        let (text, column) = (error.to_string(), error.column());
+        let text = text.split(" at line ").next().unwrap_or_default();
+        format!("{text} (column {column}); {EXAMPLE}")
+    })?;
+    let Line { t, turn_deg, speed, extension_deg, intent } = line;
+    if turn_deg.or(speed).or(extension_deg).is_none() && intent.is_none() {
+        return Err(format!("it asks for nothing; {EXAMPLE}"));
+    }
+    if let Some(t) = t {
+        if !(0.0..=TIME_MAX).contains(&t) {
+            return Err(format!("t = {t}: must be seconds since the beginning, at least 0 and at most {TIME_MAX}"));
+        }
+        if t < *last {
+            return Err(format!("t = {t}: must not be less than {last}, the time of an earlier line"));
+        }
+        *last = t;
+    }
+    let request = Request {
+        intent,
+        turn: turn_deg.map(f64::to_radians),
+        speed,
+        extension: extension_deg.map(f64::to_radians),
+        ..Request::by(Source::Script)
+    };
+    Ok(Step { time: t.map(Duration::from_secs_f64), request })
+}
+
+fn intent<'d, D: Deserializer<'d>>(deserializer: D) -> Result<Option<wire::Intent>, D::Error> {
+    let Some(word) = Option::<String>::deserialize(deserializer)? else { return Ok(None) };
+    let known = wire::Intent::ALL.iter().find(|intent| intent.text() == word);
+    known.copied().map(Some).ok_or_else(|| {
+        let words: Vec<_> = wire::Intent::ALL.iter().map(|intent| format!("\"{intent}\"")).collect();
+        serde::de::Error::custom(format!("intent = \"{word}\": must be one of {}", words.join(", ")))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn problem(line: &str) -> String {
+        Reader::new("f").read(line).expect("a line").expect_err("it is wrong").to_string()
+    }
+
+    #[test]
+    fn a_line_is_read_in_degrees_and_seconds() {
+        let step = Reader::new("f").read(r#"{"t":1.5,"turn_deg":180,"speed":1.2,"intent":"stop"}"#).unwrap().unwrap();
+        assert_eq!(step.tick(), 1500);
+        assert_eq!(step.request.turn, Some(std::f64::consts::PI));
+        assert_eq!((step.request.speed, step.request.extension), (Some(1.2), None));
+        assert_eq!(step.request.intent, Some(wire::Intent::Stop));
+    }
+
+    #[test]
+    fn mistakes_name_place_and_remedy() {
+        let text = problem(r#"{"t":1,"trun_deg":5}"#);
+        assert!(text.starts_with("f:1: unknown field `trun_deg`, expected one of `t`, `turn_deg`, `speed`"), "{text}");
+        assert!(problem("[1, 2]").starts_with("f:1: not a JSON object; write e.g. {"));
+        assert!(problem(r#"{"t":1}"#).starts_with("f:1: it asks for nothing"));
+        assert!(problem(r#"{"t":-1,"speed":1}"#).starts_with("f:1: t = -1: must be"));
+        assert!(problem(r#"{"speed":1e999}"#).starts_with("f:1: number out of range"));
+        assert!(problem(r#"{"intent":"fly"}"#).contains("intent = \"fly\": must be one of \"walk\", \"stop\""));
+        assert!(problem(r#"{"speed":1"#).starts_with("f:1: EOF while parsing an object"));
+    }
+
+    #[test]
+    fn time_does_not_run_backwards_and_lines_are_counted() {
+        let script = "{\"t\":2,\"speed\":1}\n\n{\"t\":1,\"speed\":1}\nnonsense\n{\"speed\":1}\n";
+        let errors = Reader::read_all("f", script).unwrap_err();
+        assert_eq!(errors.iter().map(|error| error.line).collect::<Vec<_>>(), [3, 4]);
+        assert_eq!(errors[0].to_string(), "f:3: t = 1: must not be less than 2, the time of an earlier line");
+    }
+}

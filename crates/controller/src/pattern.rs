@@ -1,0 +1,90 @@
+//! The walking pattern: the modified half-step as it is, or with its balance planned ahead.
+
+use balance::Preview;
+use gait::{Admission, Command, HalfStep, Request, Walk};
+use model::{Mechanism, Mirror, Motion};
+
+/// How the modified half-step is kept in balance before any feedback.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Compensation {
+    /// Not at all: the plain sum of the modifications.
+    None,
+    /// The centre of mass is planned over the coming feet.
+    Preview,
+}
+
+/// What is asked of the joints, tick by tick.
+#[derive(Clone, Debug)]
+pub enum Pattern {
+    /// The plain sum of the modifications.
+    Plain(Box<Walk>),
+    /// The same feet, with the centre of mass planned over them.
+    Preview(Box<Preview>),
+}
+
+impl Pattern {
+    /// A pattern at the beginning of a walk.
+    pub fn new(mechanism: &Mechanism, walk: Walk, compensation: Compensation) -> Self {
+        match compensation {
+            Compensation::None => Pattern::Plain(Box::new(walk)),
+            Compensation::Preview => Pattern::Preview(Box::new(Preview::new(mechanism, walk))),
+        }
+    }
+
+    /// See [`Walk::admit`].
+    pub fn admit(&mut self, request: &Request) -> Admission {
+        match self {
+            Pattern::Plain(walk) => walk.admit(request),
+            Pattern::Preview(preview) => preview.admit(request),
+        }
+    }
+
+    /// Moves on by `dt` [s] and says whether a new half-step began.
+    pub fn advance(&mut self, dt: f64) -> bool {
+        match self {
+            Pattern::Plain(walk) => walk.advance(dt),
+            Pattern::Preview(preview) => preview.advance(dt),
+        }
+    }
+
+    /// What is asked now, in support coordinates.
+    pub fn motion(&self) -> Motion {
+        match self {
+            Pattern::Plain(walk) => walk.motion(),
+            Pattern::Preview(preview) => preview.motion(),
+        }
+    }
+
+    /// Where the walk is now.
+    pub fn half_step(&self) -> HalfStep {
+        match self {
+            Pattern::Plain(walk) => walk.half_step(),
+            Pattern::Preview(preview) => preview.half_step(),
+        }
+    }
+
+    /// The speed factor of now.
+    pub fn speed(&self) -> f64 {
+        match self {
+            Pattern::Plain(walk) => walk.speed().state().value,
+            Pattern::Preview(preview) => preview.speed(),
+        }
+    }
+
+    /// What is in force.
+    pub fn command(&self) -> Command {
+        self.walk().command()
+    }
+
+    /// The swap of canonical and physical joints on the left foot.
+    pub fn mirror(&self) -> &Mirror {
+        self.walk().mirror()
+    }
+
+    fn walk(&self) -> &Walk {
+        match self {
+            Pattern::Plain(walk) => walk,
+            Pattern::Preview(preview) => preview.walk(),
+        }
+    }
+}

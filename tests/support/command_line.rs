@@ -1,0 +1,183 @@
+//! The `halfstep` command as a person types it: in a folder of its own, with the committed configuration.
+
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::{Duration, Instant};
+
+use tempfile::TempDir;
+use wire::{Instance, Leftovers, OperatorEnd};
+
+/// Nothing here takes so long; whatever does hangs.
+const SAFETY: Duration = Duration::from_secs(60);
+const GLANCE: Duration = Duration::from_millis(5);
+
+/// A folder to type commands in, and an instance to talk to.
+pub struct CommandLine {
+    binary: PathBuf,
+    folder: TempDir,
+    instance: Instance,
+    outputs: AtomicU32,
+    _leftovers: Leftovers,
+}
+
+/// What a command that has ended left behind.
+#[derive(Clone, Debug)]
+pub struct Ended {
+    /// `None` if it was killed.
+    pub code: Option<i32>,
+    /// All that it printed.
+    pub stdout: String,
+    /// All that it complained of.
+    pub stderr: String,
+}
+
+/// A command that runs; killed when dropped.
+pub struct Running {
+    child: Child,
+    outputs: [PathBuf; 2],
+}
+
+impl CommandLine {
+    /// A new folder with a copy of `config/`. `binary` is `env!("CARGO_BIN_EXE_halfstep-under-test")`.
+    pub fn new(binary: &str) -> Self {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let name = format!("test-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+        let instance = Instance::new(&name).expect("a good name");
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let config = folder.path().join("config");
+        fs::create_dir(&config).expect("an empty folder");
+        for file in fs::read_dir(crate::repository().join("config")).expect("the committed configuration") {
+            let file = file.expect("a file").path();
+            if file.is_dir() {
+                continue;
+            }
+            fs::copy(&file, config.join(file.file_name().expect("a name"))).expect("a copy");
+        }
+        let leftovers = instance.leftovers();
+        Self { binary: binary.into(), folder, instance, outputs: AtomicU32::new(0), _leftovers: leftovers }
+    }
+
+    /// The folder.
+    pub fn folder(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Text of a file in the folder.
+    pub fn read(&self, file: &str) -> String {
+        fs::read_to_string(self.folder().join(file)).unwrap_or_else(|error| panic!("{file}: {error}"))
+    }
+
+    /// Replaces `from`, which must be there, by `to` in a file of the folder.
+    pub fn edit(&self, file: &str, from: &str, to: &str) {
+        let text = self.read(file);
+        assert!(text.contains(from), "{file} does not contain {from:?}");
+        fs::write(self.folder().join(file), text.replace(from, to)).expect("a file that can be written");
+    }
+
+    /// `halfstep <words>`, run to its end.
+    pub fn run(&self, words: &str) -> Ended {
+        self.start(words).finish()
+    }
+
+    /// `halfstep <words> --instance <this one>`, started.
+    pub fn start_here(&self, words: &str) -> Running {
+        self.start(&format!("{words} --instance {}", self.instance.name()))
+    }
+
+    /// `halfstep <words>`, started.
+    pub fn start(&self, words: &str) -> Running {
+        let number = self.outputs.fetch_add(1, Ordering::Relaxed);
+        // Files, not pipes: nobody has to read while it runs.
+        let outputs = ["stdout", "stderr"].map(|name| self.folder().join(format!("{name}-{number}")));
+        let [stdout, stderr] = outputs.each_ref().map(|path| File::create(path).expect("a new file"));
+        let child = Command::new(&self.binary)
+            .args(words.split_whitespace())
+            .current_dir(self.folder())
+            .env_remove("RUST_LOG")
+            .stdin(Stdio::piped())
+            .stdout(stdout)
+            .stderr(stderr)
+            .spawn()
+            .expect("the binary under test");
+        Running { child, outputs }
+    }
+
+    /// Waits until a controller of the instance takes requests.
+    pub fn wait_for_controller(&self) {
+        let began = Instant::now();
+        while let Err(error) = OperatorEnd::connect(&self.instance) {
+            assert!(began.elapsed() < SAFETY, "{error}");
+            std::thread::sleep(GLANCE);
+        }
+    }
+}
+
+impl Running {
+    /// Pipes text into it and closes the pipe.
+    pub fn type_in(&mut self, text: &str) {
+        self.type_on(text);
+        drop(self.child.stdin.take());
+    }
+
+    /// Pipes text into it; there may be more to come.
+    pub fn type_on(&mut self, text: &str) {
+        let pipe = self.child.stdin.as_mut().expect("an open pipe");
+        pipe.write_all(text.as_bytes()).and_then(|()| pipe.flush()).expect("somebody who reads");
+    }
+
+    /// Waits until it has printed a whole line.
+    pub fn wait_for_line(&mut self) -> String {
+        let began = Instant::now();
+        loop {
+            let ended = self.ended(None);
+            if let Some((line, _)) = ended.stdout.split_once('\n') {
+                return line.to_owned();
+            }
+            assert!(began.elapsed() < SAFETY, "it prints nothing: {}", ended.stderr);
+            std::thread::sleep(GLANCE);
+        }
+    }
+
+    /// Waits until it ends.
+    pub fn finish(mut self) -> Ended {
+        drop(self.child.stdin.take());
+        let began = Instant::now();
+        let status = loop {
+            if let Some(status) = self.child.try_wait().expect("a child") {
+                break status;
+            }
+            assert!(began.elapsed() < SAFETY, "it does not end: {}", self.ended(None).stderr);
+            std::thread::sleep(GLANCE);
+        };
+        self.ended(status.code())
+    }
+
+    /// Asks it to end, as Ctrl-C does, and waits until it has.
+    pub fn end(self) -> Ended {
+        rustix::process::kill_process(rustix::process::Pid::from_child(&self.child), rustix::process::Signal::TERM)
+            .expect("it is still there");
+        self.finish()
+    }
+
+    /// Kills it; it has no chance to clean up.
+    pub fn kill(mut self) {
+        self.child.kill().expect("it is still there");
+        self.child.wait().expect("a child");
+    }
+
+    fn ended(&self, code: Option<i32>) -> Ended {
+        let [stdout, stderr] = self.outputs.each_ref().map(|path| fs::read_to_string(path).expect("its output"));
+        Ended { code, stdout, stderr }
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        // It may have ended by itself.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}

@@ -1,0 +1,48 @@
+//! The paper's figures on the committed robot.
+
+use std::path::PathBuf;
+
+use halfstep::configuration::{ConfigOptions, Errors, Robot};
+use halfstep::paper::{Figure, Reading, Scenario, reproduce};
+
+use crate::repository;
+
+/// `config/`.
+pub fn config() -> PathBuf {
+    repository().join("config")
+}
+
+/// The committed robot with its nominal.
+pub fn robot() -> Robot {
+    let mut errors = Errors::default();
+    let robot = ConfigOptions { config: config(), mechanism: None, nominal: None }.robot(&mut errors);
+    errors.finish(robot).expect("the committed robot loads")
+}
+
+/// `config/paper.toml`.
+pub fn reading() -> Reading {
+    Reading::load(&config().join("paper.toml")).expect("the committed reading loads")
+}
+
+/// All of `config/scenarios`.
+pub fn scenarios() -> Vec<Scenario> {
+    let mut errors = Errors::default();
+    let scenarios = Scenario::load_all(&config().join("scenarios"), &mut errors);
+    errors.finish(Some(scenarios)).expect("the committed scenarios load")
+}
+
+/// The scenario of a figure.
+pub fn scenario(figure: u64) -> Scenario {
+    scenarios().into_iter().find(|scenario| scenario.figure == figure).expect("the figure has a scenario")
+}
+
+/// All figures, reproduced.
+pub fn figures(robot: &Robot, reading: Reading) -> Vec<Figure> {
+    let figure = |scenario| reproduce(robot, reading, scenario).expect("the robot turns and extends its steps");
+    scenarios().iter().map(figure).collect()
+}
+
+/// The numbers of the figures whose stated verdict is another one here.
+pub fn misses(figures: &[Figure]) -> Vec<u64> {
+    figures.iter().filter(|figure| figure.agrees() == Some(false)).map(|figure| figure.scenario.figure).collect()
+}
