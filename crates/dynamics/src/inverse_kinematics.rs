@@ -47,10 +47,11 @@ impl Leg {
 /// # Errors
 /// [`Unreachable`] leaves the closest angles found.
 pub fn solve_leg(tree: &Tree, leg: Leg, target: &Isometry3<f64>, angles: &mut JointVector) -> Result<(), Unreachable> {
-    let mut kinematics = Kinematics::default();
+    let mut kinematics = Kinematics::standing(tree, angles);
     let mut residual = f64::INFINITY;
     for _ in 0..ITERATIONS_MAX {
-        kinematics.stand(tree, angles);
+        // What carries the leg stays where it is.
+        kinematics.chain(tree, angles, leg.joints().into_iter());
         let end = kinematics.link_to_world(leg.end());
         let miss = pose_difference(&end, target);
         residual = miss.amax();

@@ -49,8 +49,9 @@ impl Kinematics {
         self.chain(tree, angles, Tree::floating_joints());
     }
 
+    /// Places the links of `joints`, whose parents are placed already or among them.
     #[inline(always)]
-    fn chain(&mut self, tree: &Tree, angles: &JointVector, joints: impl Iterator<Item = Joint>) {
+    pub(crate) fn chain(&mut self, tree: &Tree, angles: &JointVector, joints: impl Iterator<Item = Joint>) {
         for joint in joints {
             let node = &tree.nodes[joint];
             let (parent_rotation, parent_origin) = match node.parent {

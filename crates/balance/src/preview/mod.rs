@@ -8,6 +8,7 @@
 mod cart_table;
 mod footprint;
 mod nominal_sway;
+mod outlook;
 mod planner;
 mod swing_path;
 mod whole_body;
@@ -15,6 +16,7 @@ mod whole_body;
 pub use cart_table::{CartState, CartTable};
 pub use footprint::{Footprint, SolePose};
 pub use nominal_sway::NominalSway;
+pub use outlook::{Outlook, swinging_sole};
 pub use planner::{KNOT, Preview};
 pub use swing_path::SwingPath;
 pub use whole_body::{Wanted, WholeBody};

@@ -6,7 +6,9 @@ use model::{JointVector, Mechanism, Motion, Side};
 use nalgebra::Vector2;
 
 use crate::preview::swing_path::smooth_step;
-use crate::preview::{CartState, CartTable, Footprint, NominalSway, SolePose, SwingPath, Wanted, WholeBody};
+use crate::preview::{
+    CartState, CartTable, Footprint, NominalSway, Outlook, SolePose, SwingPath, Wanted, WholeBody, swinging_sole,
+};
 
 /// Time between knots [s].
 pub const KNOT: f64 = 0.01;
@@ -24,8 +26,8 @@ const PELVIS_OFF_MIDDLE: f64 = 0.06;
 pub struct Preview {
     mechanism: Mechanism,
     tree: Tree,
-    sway: NominalSway,
     cart: CartTable,
+    outlook: Outlook,
     /// The walk at the newest knot.
     walk: Walk,
     /// The bearing foot at the newest knot.
@@ -73,6 +75,7 @@ impl Preview {
         let swing = SwingPath::new(&SolePose::swinging(mechanism, &kinematics), |progress| {
             swinging_sole(&tree, mechanism, &walk, progress)
         });
+        let outlook = Outlook::new(sway, &tree, mechanism, &walk, footprint, &swing, cart.knots());
         let knot = Knot {
             angles: walk.physical_motion().angles,
             place: walk.half_step().progress,
@@ -87,8 +90,8 @@ impl Preview {
             elapsed: 0.0,
             unreachable: false,
             tree,
-            sway,
             cart,
+            outlook,
             walk,
             footprint,
             swing,
@@ -113,7 +116,9 @@ impl Preview {
 
     /// See [`Walk::admit`].
     pub fn admit(&mut self, request: &Request) -> Admission {
-        self.walk.admit(request)
+        let admission = self.walk.admit(request);
+        self.outlook.begin(&self.tree, &self.mechanism, &self.walk, self.footprint, &self.swing);
+        admission
     }
 
     /// What is in force.
@@ -183,8 +188,9 @@ impl Preview {
     /// Plans and realises one more knot.
     fn plan_knot(&mut self) {
         // where the centre of mass goes, seen from the last knot
-        let wanted = self.wanted_zmp();
+        let wanted = self.outlook.weighed(&self.cart);
         self.com = [0, 1].map(|axis| self.cart.advance(&self.com[axis], wanted[axis]));
+        self.outlook.advance(&self.tree, &self.mechanism);
 
         // where the feet go
         if self.walk.advance(KNOT) {
@@ -215,23 +221,6 @@ impl Preview {
             Knot { angles, place: half_step.index as f64 + half_step.progress, speed: self.walk.speed().state().value };
         self.knots.rotate_left(1);
         self.knots[3] = knot;
-    }
-
-    /// Plays the walk ahead and weighs what the coming knots want of the ZMP: the sum for each axis of the walk frame.
-    fn wanted_zmp(&self) -> [f64; 2] {
-        let mut scout = self.walk.clone();
-        let mut footprint = self.footprint;
-        let mut landing = self.swing.landing;
-        let mut sum = Vector2::zeros();
-        for ahead in 0..self.cart.knots() {
-            if scout.advance(KNOT) {
-                footprint = footprint.next(&landing);
-                landing = swinging_sole(&self.tree, &self.mechanism, &scout, 1.0);
-            }
-            let beyond = self.sway.beyond_pendulum(scout.half_step().progress, scout.speed().state().value);
-            sum += footprint.point_to_walk(-beyond) * self.cart.gain(ahead);
-        }
-        [sum.x, sum.y]
     }
 
     /// A new half-step begins at the newest knot.
@@ -268,11 +257,6 @@ fn lowering(tree: &Tree, mechanism: &Mechanism, walk: &Walk, landing: &SolePose)
     let spread = landing.position.xy() - Vector2::new(0.0, hip_width);
     let reach = spread.norm() / 2.0 + PELVIS_OFF_MIDDLE;
     (hips - (leg * leg - reach * reach).max(0.0).sqrt()).max(0.0)
-}
-
-/// The swinging sole of the modified half-step at a progress.
-fn swinging_sole(tree: &Tree, mechanism: &Mechanism, walk: &Walk, progress: f64) -> SolePose {
-    SolePose::swinging(mechanism, &Kinematics::standing(tree, &walk.motion_at(progress).angles))
 }
 
 /// Position, velocity and acceleration told in the walk's frame, along x and along y.

@@ -1,0 +1,73 @@
+//! What the coming knots want of the ZMP: the walk played ahead of itself.
+
+use dynamics::{Kinematics, Tree};
+use gait::Walk;
+use model::Mechanism;
+use nalgebra::Vector2;
+
+use crate::preview::{CartTable, Footprint, KNOT, NominalSway, SolePose, SwingPath};
+
+/// Where the pendulum's ZMP is wanted in the coming knots: under the foot that will bear, less what the pendulum leaves out.
+/// Played anew when a request changes what is to come; else one knot is added as one is used.
+#[derive(Clone, Debug)]
+pub struct Outlook {
+    sway: NominalSway,
+    /// In the walk frame [m]; the oldest at `next`.
+    wanted: Vec<Vector2<f64>>,
+    next: usize,
+    /// The walk at the last of them.
+    scout: Walk,
+    footprint: Footprint,
+    landing: SolePose,
+}
+
+impl Outlook {
+    /// Looks `knots` ahead of a walk.
+    pub fn new(
+        sway: NominalSway,
+        tree: &Tree,
+        mechanism: &Mechanism,
+        walk: &Walk,
+        footprint: Footprint,
+        swing: &SwingPath,
+        knots: usize,
+    ) -> Self {
+        let wanted = vec![Vector2::zeros(); knots];
+        let mut outlook = Self { sway, wanted, next: 0, scout: walk.clone(), footprint, landing: swing.landing };
+        outlook.begin(tree, mechanism, walk, footprint, swing);
+        outlook
+    }
+
+    /// Looks ahead anew from where the walk is.
+    pub fn begin(&mut self, tree: &Tree, mechanism: &Mechanism, walk: &Walk, footprint: Footprint, swing: &SwingPath) {
+        self.scout.clone_from(walk);
+        self.footprint = footprint;
+        self.landing = swing.landing;
+        for _ in 0..self.wanted.len() {
+            self.advance(tree, mechanism);
+        }
+    }
+
+    /// One knot is past: one more comes into sight.
+    pub fn advance(&mut self, tree: &Tree, mechanism: &Mechanism) {
+        if self.scout.advance(KNOT) {
+            self.footprint = self.footprint.next(&self.landing);
+            self.landing = swinging_sole(tree, mechanism, &self.scout, 1.0);
+        }
+        let speed = self.scout.speed().state().value;
+        let beyond = self.sway.beyond_pendulum(self.scout.half_step().progress, speed);
+        self.wanted[self.next] = self.footprint.point_to_walk(-beyond);
+        self.next = (self.next + 1) % self.wanted.len();
+    }
+
+    /// The sum of what is wanted, each knot times its gain, along both axes of the walk frame.
+    pub fn weighed(&self, cart: &CartTable) -> Vector2<f64> {
+        let (later, sooner) = self.wanted.split_at(self.next);
+        sooner.iter().chain(later).enumerate().map(|(ahead, wanted)| wanted * cart.gain(ahead)).sum()
+    }
+}
+
+/// The swinging sole of the modified half-step at a progress.
+pub fn swinging_sole(tree: &Tree, mechanism: &Mechanism, walk: &Walk, progress: f64) -> SolePose {
+    SolePose::swinging(mechanism, &Kinematics::standing(tree, &walk.motion_at(progress).angles))
+}
