@@ -92,6 +92,9 @@ impl Controller {
 
         // What does the walk ask for?
         let asked = self.advance(dt);
+        if self.pattern.is_out_of_reach() {
+            faults.insert(Fault::OutOfReach);
+        }
 
         // What may the joints be given?
         let setpoint = self.limit(&asked, dt, &mut faults);

@@ -22,11 +22,13 @@ pub enum Fault {
     Fallen = 128,
     /// A measurement had a value that no working sensor of this robot gives; it was not used.
     MeasurementAbsurd = 256,
+    /// The plan went where a leg cannot reach; the posture before was kept.
+    OutOfReach = 512,
 }
 
 impl Fault {
     /// All faults.
-    pub const ALL: [Fault; 9] = [
+    pub const ALL: [Fault; 10] = [
         Fault::MeasurementStale,
         Fault::MeasurementNotFinite,
         Fault::MeasurementOutOfOrder,
@@ -36,6 +38,7 @@ impl Fault {
         Fault::InTheAir,
         Fault::Fallen,
         Fault::MeasurementAbsurd,
+        Fault::OutOfReach,
     ];
 }
 

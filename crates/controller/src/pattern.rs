@@ -71,6 +71,14 @@ impl Pattern {
         }
     }
 
+    /// Whether the plan went where a leg cannot reach, so that the posture before was kept.
+    pub fn is_out_of_reach(&self) -> bool {
+        match self {
+            Pattern::Plain(_) => false,
+            Pattern::Preview(preview) => preview.is_out_of_reach(),
+        }
+    }
+
     /// What is in force.
     pub fn command(&self) -> Command {
         self.walk().command()

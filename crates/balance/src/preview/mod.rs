@@ -7,6 +7,7 @@
 
 mod cart_table;
 mod footprint;
+mod hip_height;
 mod nominal_sway;
 mod outlook;
 mod planner;
@@ -15,6 +16,7 @@ mod whole_body;
 
 pub use cart_table::{CartState, CartTable};
 pub use footprint::{Footprint, SolePose};
+pub use hip_height::HipHeight;
 pub use nominal_sway::NominalSway;
 pub use outlook::{Outlook, swinging_sole};
 pub use planner::{KNOT, Preview};

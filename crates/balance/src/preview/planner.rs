@@ -5,9 +5,9 @@ use gait::{Admission, Command, HalfStep, Request, Walk};
 use model::{JointVector, Mechanism, Motion, Side};
 use nalgebra::Vector2;
 
-use crate::preview::swing_path::smooth_step;
 use crate::preview::{
-    CartState, CartTable, Footprint, NominalSway, Outlook, SolePose, SwingPath, Wanted, WholeBody, swinging_sole,
+    CartState, CartTable, Footprint, HipHeight, NominalSway, Outlook, SolePose, SwingPath, Wanted, WholeBody,
+    swinging_sole,
 };
 
 /// Time between knots [s].
@@ -16,10 +16,6 @@ pub const KNOT: f64 = 0.01;
 const KNOTS_AHEAD: usize = 180;
 /// What a jerk costs against a ZMP error [m²/(m/s³)²].
 const JERK_WEIGHT: f64 = 1e-8;
-/// Share of the legs' length that is used at most: the knee keeps a bend of 19°.
-const LEG_SHARE_MAX: f64 = 0.987;
-/// How far the pelvis may be off the middle of both feet when the foot lands [m].
-const PELVIS_OFF_MIDDLE: f64 = 0.06;
 
 /// A walk whose centre of mass is planned. Takes the place of the plain [`Walk`].
 #[derive(Clone, Debug)]
@@ -40,8 +36,7 @@ pub struct Preview {
     knots: [Knot; 4],
     /// Since the second knot [s].
     elapsed: f64,
-    /// Whether a leg was too short in one of the last knots.
-    pub unreachable: bool,
+    unreachable: bool,
 }
 
 /// One realised instant.
@@ -52,13 +47,6 @@ struct Knot {
     /// Half-steps since the beginning, with their progress.
     place: f64,
     speed: f64,
-}
-
-/// The hips' height: the nominal's, lowered smoothly where a long step would stretch a leg.
-#[derive(Clone, Copy, Debug)]
-struct HipHeight {
-    lowered_at_start: f64,
-    lowered_at_end: f64,
 }
 
 impl Preview {
@@ -84,7 +72,7 @@ impl Preview {
         let mut preview = Self {
             mechanism: mechanism.clone(),
             body: WholeBody::new(&tree, &motion.angles),
-            hips: HipHeight { lowered_at_start: 0.0, lowered_at_end: 0.0 },
+            hips: HipHeight::new(&tree, mechanism, &walk),
             com: cart_states(&footprint, com, com_velocity, Vector2::zeros()),
             knots: [knot; 4],
             elapsed: 0.0,
@@ -142,7 +130,7 @@ impl Preview {
         let place = self.place();
         let newest = self.walk.half_step();
         let index = place.floor();
-        let behind = newest.index - index as u64;
+        let behind = newest.index.saturating_sub(index as u64);
         HalfStep {
             index: index as u64,
             support: if behind.is_multiple_of(2) { newest.support } else { newest.support.other() },
@@ -173,6 +161,11 @@ impl Preview {
             Side::Right => self.physical_motion(),
             Side::Left => self.physical_motion().mirrored(self.walk.mirror()),
         }
+    }
+
+    /// Whether a leg was too short at the newest knot, so that the posture before was kept.
+    pub fn is_out_of_reach(&self) -> bool {
+        self.unreachable
     }
 
     /// The walk that is asked for, at the newest knot.
@@ -230,34 +223,12 @@ impl Preview {
         self.footprint = self.footprint.next(&landed);
         self.swing =
             SwingPath::new(&standing, |progress| swinging_sole(&self.tree, &self.mechanism, &self.walk, progress));
-        self.hips = HipHeight {
-            lowered_at_start: self.hips.lowered_at_end,
-            lowered_at_end: lowering(&self.tree, &self.mechanism, &self.walk, &self.swing.landing),
-        };
+        self.hips.begin_half_step(&self.swing.landing);
         self.body.swap(&self.tree, self.walk.mirror());
     }
 }
 
 const PELVIS: model::Joint = dynamics::Leg(Side::Right).end();
-
-impl HipHeight {
-    fn lowered(&self, progress: f64) -> f64 {
-        self.lowered_at_start + (self.lowered_at_end - self.lowered_at_start) * smooth_step(progress)
-    }
-}
-
-/// By how much the hips must be lower than the nominal's when the foot has landed, for both legs to reach [m].
-fn lowering(tree: &Tree, mechanism: &Mechanism, walk: &Walk, landing: &SolePose) -> f64 {
-    let end = Kinematics::standing(tree, &walk.table().at(1.0).angles);
-    let hips = end.origin[PELVIS].z - mechanism.sole.ankle_height;
-    let leg = LEG_SHARE_MAX
-        * (mechanism.links[model::Joint::RightKnee].origin.norm()
-            + mechanism.links[model::Joint::RightHipPitch].origin.norm());
-    let hip_width = mechanism.links[model::Joint::LeftHipRoll].origin.y;
-    let spread = landing.position.xy() - Vector2::new(0.0, hip_width);
-    let reach = spread.norm() / 2.0 + PELVIS_OFF_MIDDLE;
-    (hips - (leg * leg - reach * reach).max(0.0).sqrt()).max(0.0)
-}
 
 /// Position, velocity and acceleration told in the walk's frame, along x and along y.
 fn cart_states(

@@ -59,6 +59,7 @@ fn fault(fault: Fault) -> wire::Fault {
         Fault::AngleLimited => wire::Fault::AngleLimited,
         Fault::RateLimited => wire::Fault::RateLimited,
         Fault::WalkNotFinite => wire::Fault::SetpointNotFinite,
+        Fault::OutOfReach => wire::Fault::OutOfReach,
         Fault::InTheAir => wire::Fault::InTheAir,
         Fault::Fallen => wire::Fault::Fallen,
     }

@@ -40,6 +40,8 @@ codes! {
         InTheAir = 128 "the feet carry too little for a zero-moment point",
         /// The robot has fallen.
         Fallen = 256 "the robot has fallen",
+        /// The plan went where a leg cannot reach; the posture before was kept.
+        OutOfReach = 1024 "the plan went where a leg cannot reach",
         /// A deadline was missed in this period.
         DeadlineMissed = 512 "a deadline was missed",
     }
