@@ -1,6 +1,7 @@
-//! Asked to stop or hold at any moment of a gentle walk, the robot finishes the half-step and stands still on both feet.
+//! Asked to stop or hold at any moment of a gentle walk, the robot finishes the half-step, stands still on both feet, and
+//! walks on when asked to.
 
-use controller::{Intent, Mode, Refusal};
+use controller::{Intent, Mode};
 use gait::{Request, Verdict};
 use halfstep_tests::random;
 use halfstep_tests::walking::Walking;
@@ -23,19 +24,27 @@ fn from_any_moment_of_the_walk() {
         let report = walking.tick(Some((&Request::default(), Some(Intent::Stop))));
         let answer = report.answer.expect("a request is answered");
         assert_eq!((answer.admission.verdict, answer.intent), (Verdict::Accepted, Intent::Stop));
-        assert_eq!(answer.admission.effect_half_step, report.half_step.index + 1);
+        let stands_at = answer.admission.effect_half_step;
+        let half_steps = stands_at - report.half_step.index;
+        assert!((1..=2).contains(&half_steps), "seed {seed}: stands only after {half_steps} half-steps");
 
-        let braked = walking.walk(4.0);
-        let still = walking.walk(6.0);
+        let braked = walking.walk(7.0);
+        let still = walking.walk(5.0);
+        let report = walking.tick(None);
+        assert_eq!((report.mode, report.half_step.index), (Mode::Holding, stands_at), "seed {seed}");
         assert!(!still.has_fallen(), "seed {seed}: fell");
         let moved = (still.com - braked.com).norm();
         assert!(moved < 2e-3, "seed {seed}: moved by {moved} m while standing");
         let heights = still.soles.map(|sole| sole.translation.z.abs());
         assert!(heights.iter().all(|height| *height < 2e-3), "seed {seed}: soles are {heights:?} m off the ground");
 
-        // There is no walk to change any more, and none begins from a stand.
-        let report = walking.tick(Some((&request, Some(Intent::Walk))));
-        assert_eq!(report.mode, Mode::Holding);
-        assert_eq!(report.answer.expect("answered").refusal, Some(Refusal::Standing));
+        // And it walks on.
+        let report = walking.tick(Some((&Request::default(), Some(Intent::Walk))));
+        assert_eq!(report.answer.expect("answered").admission.verdict, Verdict::Accepted);
+        let half_steps = report.half_step.index;
+        let walked = walking.walk(8.0);
+        let report = walking.tick(None);
+        assert!(!walked.has_fallen() && report.mode == Mode::Walking, "seed {seed}: fell after the start");
+        assert!(report.half_step.index >= half_steps + 9, "seed {seed}: only at {}", report.half_step.index);
     }
 }

@@ -10,6 +10,9 @@ use crate::{CentreOfMass, FeedbackParameters};
 const ANKLES: [[Joint; 2]; 2] =
     [[Joint::RightAnkleRoll, Joint::RightAnklePitch], [Joint::LeftAnkleRoll, Joint::LeftAnklePitch]];
 
+/// Farthest that the ZMP is moved between both feet [m].
+const SHIFT_ON_BOTH_FEET: f64 = 0.03;
+
 /// Rotation of the body over the bearing ankle, about x and y [rad].
 pub type AnkleLean = Vector2<f64>;
 
@@ -49,16 +52,23 @@ impl Feedback {
     /// Absorbs where the centre of mass is against where it should be, and moves the offsets on.
     ///
     /// * `zmp_planned` – where the ground should push if all went as planned [m]
+    /// * `on_both_feet` – whether the other foot bears, too, so that the point may leave the bearing sole
     /// * `dt` – time since the last update [s]
     pub fn update(
         &mut self,
         planned: &CentreOfMass,
         sensed: Option<&CentreOfMass>,
         zmp_planned: Vector2<f64>,
+        on_both_feet: bool,
         dt: f64,
     ) {
         if let Some(sensed) = sensed {
-            let shift = self.zmp_shift(sensed.divergent_component() - planned.divergent_component(), zmp_planned);
+            let error = sensed.divergent_component() - planned.divergent_component();
+            let shift = if on_both_feet {
+                (error * self.parameters.gain).map(|shift| shift.clamp(-SHIFT_ON_BOTH_FEET, SHIFT_ON_BOTH_FEET))
+            } else {
+                self.zmp_shift(error, zmp_planned)
+            };
             // To push the ground further ahead (+x) the body leans back (−y); further left (+y) it leans right (+x).
             self.lean = Vector2::new(shift.y, -shift.x) * self.lean_per_shift;
         }

@@ -1,7 +1,7 @@
 //! What the asked motion needs, by inverse dynamics: joint torques, ZMP, centre of mass.
 
 use dynamics::{NewtonEuler, SupportPolygon, Tree, zmp};
-use model::{JointVector, Mechanism, Motion};
+use model::{JointVector, Mechanism, Mirror, Motion, Side};
 use nalgebra::Vector2;
 
 use crate::CentreOfMass;
@@ -25,7 +25,7 @@ pub struct Plan {
 
 impl Plan {
     /// Nothing planned yet: the robot standing straight.
-    pub fn new(mechanism: &Mechanism, tree: &Tree) -> Self {
+    pub fn new(mechanism: &Mechanism, tree: &Tree, mirror: &Mirror) -> Self {
         let rotors = model::PerJoint::from_fn(|joint| {
             mechanism.links[joint].motor.map_or(0.0, |motor| motor.reflected_inertia())
         });
@@ -39,19 +39,32 @@ impl Plan {
             margin: 0.0,
             centre_of_mass: CentreOfMass::of_motion(tree, &kinematics, &JointVector::ZERO),
         };
-        plan.update(tree, &Motion::default());
+        plan.update(tree, mirror, &Motion::default(), false);
         plan
     }
 
     /// What `motion`, told in support coordinates, needs.
-    pub fn update(&mut self, tree: &Tree, motion: &Motion) {
+    ///
+    /// On one foot that foot carries all. On both, they share what the ground gives as the ZMP lies between them; torques
+    /// are linear in the share: they are those of standing on the one foot and on the other, mixed.
+    pub fn update(&mut self, tree: &Tree, mirror: &Mirror, motion: &Motion, on_both_feet: bool) {
+        let on_other = on_both_feet.then(|| {
+            self.inverse.stand(tree, &motion.mirrored(mirror));
+            mirror.apply(&self.inverse.torques)
+        });
         self.inverse.stand(tree, motion);
-        self.torques = self.inverse.torques
-            + motion.accelerations.zip_with(&self.rotors, |acceleration, rotor| acceleration * rotor);
         // A motion that needs no ground has its point infinitely far away; the last one stands for it.
         if let Some(point) = zmp(&self.inverse.ground) {
             self.zmp = point;
         }
+        let on_bearing = self.inverse.torques;
+        let carried = on_other.map_or(on_bearing, |on_other| {
+            let to_other = self.inverse.kinematics.origin[Mechanism::foot(Side::Left)].xy();
+            let share = (self.zmp.dot(&to_other) / to_other.norm_squared()).clamp(0.0, 1.0);
+            on_bearing * (1.0 - share) + on_other * share
+        });
+        let rotors = motion.accelerations.zip_with(&self.rotors, |acceleration, rotor| acceleration * rotor);
+        self.torques = carried + rotors;
         self.margin = self.sole.margin(self.zmp);
         self.centre_of_mass = CentreOfMass::of_motion(tree, &self.inverse.kinematics, &motion.rates);
     }

@@ -83,7 +83,7 @@ mod tests {
         assert_eq!(reply(&asked, &answer(Verdict::Accepted, Reason::None)), "accepted: turn 10°, from half-step 12");
         assert_eq!(
             reply(&asked, &answer(Verdict::Refused, Reason::NoWayBack)),
-            "refused because a walk cannot begin from a stand or from the ground yet: start a new one"
+            "refused because this walk cannot go on any more: start a new one"
         );
     }
 }

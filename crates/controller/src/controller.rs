@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use balance::preview::Gate;
 use balance::{CentreOfMass, Feedback, Ground, Plan, Sensed, ZmpEstimator};
 use dynamics::{Kinematics, Tree};
 use gait::{Admission, NominalTable, Request, Start, Verdict, Walk, WalkError};
@@ -28,7 +29,7 @@ pub struct Controller {
     guard: Guard,
     mode: Mode,
     intent: Intent,
-    /// The stop under way, while holding.
+    /// The stop of a pattern that cannot stand by itself.
     holding: Option<Holding>,
 }
 
@@ -45,8 +46,8 @@ impl Controller {
     ) -> Result<Self, WalkError> {
         let walk = Walk::new(table, mechanism, &parameters.gait, start)?;
         let tree = Tree::new(mechanism);
-        let mut plan = Plan::new(mechanism, &tree);
-        plan.update(&tree, &walk.motion());
+        let mut plan = Plan::new(mechanism, &tree, walk.mirror());
+        plan.update(&tree, walk.mirror(), &walk.motion(), false);
         let guard = Guard::new(mechanism, &walk.physical_motion().angles);
         let pattern = Pattern::new(mechanism, walk, parameters.compensation);
         Ok(Self {
@@ -84,11 +85,13 @@ impl Controller {
         let centre_of_mass = self.estimate(measurement, dt, &mut faults);
 
         // What does balance ask for?
-        if self.mode != Mode::Walking {
+        let is_planned = self.mode != Mode::Fallen && self.holding.is_none();
+        if !is_planned {
             self.feedback.release();
         }
-        let error_known = centre_of_mass.filter(|_| self.mode == Mode::Walking);
-        self.feedback.update(&self.plan.centre_of_mass, error_known.as_ref(), self.plan.zmp, dt);
+        let known = centre_of_mass.filter(|_| is_planned);
+        let on_both_feet = self.pattern.weight_on_bearing() < 1.0;
+        self.feedback.update(&self.plan.centre_of_mass, known.as_ref(), self.plan.zmp, on_both_feet, dt);
 
         // What does the walk ask for?
         let asked = self.advance(dt);
@@ -117,9 +120,8 @@ impl Controller {
     /// Absorbs a measurement; gives the centre of mass as sensed, if something good was sensed.
     fn estimate(&mut self, measurement: Option<&Measurement>, dt: f64, faults: &mut Faults) -> Option<CentreOfMass> {
         let good = self.watch.update(measurement, dt, faults);
-        if self.watch.is_stale() {
-            self.intent = Intent::Hold;
-            self.feedback.release();
+        if self.watch.is_stale() && self.intent != Intent::Hold {
+            self.intend(Intent::Hold);
         }
         let (measurement, up_in_trunk) = good?;
         if self.watch.has_fallen(&up_in_trunk) {
@@ -149,16 +151,23 @@ impl Controller {
     /// Moves on by a period and gives what the mode asks for, in support coordinates, feedback included.
     fn advance(&mut self, dt: f64) -> Motion {
         let motion = match (self.mode, &mut self.holding) {
-            (Mode::Walking, _) => {
+            (Mode::Fallen, _) => return Motion::default(),
+            (_, Some(holding)) => holding.advance(&self.tree, dt),
+            (_, None) => {
                 if self.pattern.advance(dt) {
                     self.swap();
                 }
                 self.pattern.motion()
             }
-            (Mode::Holding, Some(holding)) => holding.advance(&self.tree, dt),
-            _ => return Motion::default(),
         };
-        self.plan.update(&self.tree, &motion);
+        self.mode = match self.pattern.gate() {
+            _ if self.holding.is_some() => Mode::Holding,
+            Gate::Opening(_) => Mode::Starting,
+            _ if self.pattern.weight_on_bearing() < 1.0 => Mode::Holding,
+            _ => Mode::Walking,
+        };
+        let on_both_feet = self.pattern.weight_on_bearing() < 1.0;
+        self.plan.update(&self.tree, self.pattern.mirror(), &motion, on_both_feet);
         motion + *self.feedback.offsets()
     }
 
@@ -166,10 +175,18 @@ impl Controller {
     fn swap(&mut self) {
         self.feedback.swap(self.pattern.mirror());
         self.zmp_estimator.swap();
-        if self.intent != Intent::Walk {
+        if self.intent != Intent::Walk && !self.pattern.can_stand() {
             let pendulum_rate = self.plan.centre_of_mass.pendulum_rate();
             self.holding = Some(Holding::begin(&self.tree, &self.pattern.motion(), pendulum_rate));
-            self.mode = Mode::Holding;
+        }
+    }
+
+    /// Goes on or stops at the next swap.
+    fn intend(&mut self, intent: Intent) {
+        self.intent = intent;
+        match intent {
+            Intent::Walk => self.pattern.start(),
+            Intent::Stop | Intent::Hold => self.pattern.stop(),
         }
     }
 
@@ -191,7 +208,7 @@ impl Controller {
     fn answer(&mut self, request: &Request, intent: Option<Intent>) -> Answer {
         let refusal = match (self.mode, intent) {
             (Mode::Fallen, _) => Some(Refusal::Fallen),
-            (Mode::Holding, None | Some(Intent::Walk)) => Some(Refusal::Standing),
+            (_, None | Some(Intent::Walk)) if self.holding.is_some() => Some(Refusal::Standing),
             _ => None,
         };
         if refusal.is_some() {
@@ -208,10 +225,9 @@ impl Controller {
         if admission.verdict != Verdict::Refused
             && let Some(intent) = intent
         {
-            if self.mode == Mode::Walking && intent != Intent::Walk {
-                admission.effect_half_step = admission.effect_half_step.max(self.pattern.half_step().index + 1);
-            }
-            self.intent = intent;
+            self.intend(intent);
+            let stands = self.pattern.half_step().index + u64::from(self.pattern.gate().swaps_to_stand());
+            admission.effect_half_step = admission.effect_half_step.max(stands);
         }
         Answer { admission, intent: self.intent, refusal }
     }

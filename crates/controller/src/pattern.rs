@@ -1,6 +1,7 @@
 //! The walking pattern: the modified half-step as it is, or with its balance planned ahead.
 
 use balance::Preview;
+use balance::preview::Gate;
 use gait::{Admission, Command, HalfStep, Request, Walk};
 use model::{Mechanism, Mirror, Motion};
 
@@ -44,6 +45,41 @@ impl Pattern {
         match self {
             Pattern::Plain(walk) => walk.advance(dt),
             Pattern::Preview(preview) => preview.advance(dt),
+        }
+    }
+
+    /// Whether the walk goes on. The plain sum of the modifications cannot stand by itself: it always goes on.
+    pub fn gate(&self) -> Gate {
+        match self {
+            Pattern::Plain(_) => Gate::Open,
+            Pattern::Preview(preview) => preview.gate(),
+        }
+    }
+
+    /// Whether it can stop by itself.
+    pub fn can_stand(&self) -> bool {
+        matches!(self, Pattern::Preview(_))
+    }
+
+    /// Share of the weight that the bearing foot is to carry now.
+    pub fn weight_on_bearing(&self) -> f64 {
+        match self {
+            Pattern::Plain(_) => 1.0,
+            Pattern::Preview(preview) => preview.weight_on_bearing(),
+        }
+    }
+
+    /// Stops at the end of this half-step and stands on both feet, if it can.
+    pub fn stop(&mut self) {
+        if let Pattern::Preview(preview) = self {
+            preview.stop();
+        }
+    }
+
+    /// Walks on.
+    pub fn start(&mut self) {
+        if let Pattern::Preview(preview) = self {
+            preview.start();
         }
     }
 

@@ -60,6 +60,6 @@ pub struct Answer {
 pub enum Refusal {
     /// The robot has fallen.
     Fallen,
-    /// The walk has been stopped, and a walk cannot begin from a stand.
+    /// The plain sum of modifications has been stopped; it cannot begin again from a stand.
     Standing,
 }

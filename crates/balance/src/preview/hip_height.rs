@@ -18,6 +18,8 @@ pub struct HipHeight {
     hip_width: f64,
     lowered_at_start: f64,
     lowered_at_end: f64,
+    /// As the half-step began, before any crouch.
+    lowered_at_swap: f64,
 }
 
 /// Share of the legs' length that is used at most: the knee keeps a bend of 19°.
@@ -36,16 +38,30 @@ impl HipHeight {
             hip_width: mechanism.links[Joint::LeftHipRoll].origin.y,
             lowered_at_start: 0.0,
             lowered_at_end: 0.0,
+            lowered_at_swap: 0.0,
         }
     }
 
     /// A half-step begins that ends at `landing`.
     pub fn begin_half_step(&mut self, landing: &SolePose) {
         let spread = landing.position.xy() - Vector2::new(0.0, self.hip_width);
-        let reach = spread.norm() / 2.0 + PELVIS_OFF_MIDDLE;
-        let height = (self.leg_max * self.leg_max - reach * reach).max(0.0).sqrt();
+        self.lowered_at_swap = self.lowered_at_end;
         self.lowered_at_start = self.lowered_at_end;
-        self.lowered_at_end = (self.above_ankle - height).max(0.0);
+        self.lowered_at_end = self.needed(spread.norm() / 2.0 + PELVIS_OFF_MIDDLE);
+    }
+
+    /// Crouches for a start from a stand: the pelvis goes over the bearing foot while the other one, at `standing`, is still
+    /// on the ground. Done before the shift of weight, of which `shifted` has passed, gets far.
+    pub fn crouch(&mut self, standing: &SolePose, shifted: f64) {
+        let spread = standing.position.xy() - Vector2::new(0.0, self.hip_width);
+        let needed = self.needed(spread.norm() + PELVIS_OFF_MIDDLE).max(self.lowered_at_swap);
+        let done = smooth_step((2.0 * shifted).min(1.0));
+        self.lowered_at_start = self.lowered_at_swap + (needed - self.lowered_at_swap) * done;
+    }
+
+    /// By how much the hips must be lowered for a leg to reach so far from under its hip [m].
+    fn needed(&self, reach: f64) -> f64 {
+        (self.above_ankle - (self.leg_max * self.leg_max - reach * reach).max(0.0).sqrt()).max(0.0)
     }
 
     /// How much lower than the nominal's the hips are at a progress [m].

@@ -7,6 +7,7 @@
 
 mod cart_table;
 mod footprint;
+mod gate;
 mod hip_height;
 mod nominal_sway;
 mod outlook;
@@ -16,9 +17,10 @@ mod whole_body;
 
 pub use cart_table::{CartState, CartTable};
 pub use footprint::{Footprint, SolePose};
+pub use gate::Gate;
 pub use hip_height::HipHeight;
 pub use nominal_sway::NominalSway;
-pub use outlook::{Outlook, swinging_sole};
+pub use outlook::{Feet, Outlook, swinging_sole};
 pub use planner::{KNOT, Preview};
 pub use swing_path::SwingPath;
 pub use whole_body::{Wanted, WholeBody};

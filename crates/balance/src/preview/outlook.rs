@@ -5,7 +5,7 @@ use gait::Walk;
 use model::Mechanism;
 use nalgebra::Vector2;
 
-use crate::preview::{CartTable, Footprint, KNOT, NominalSway, SolePose, SwingPath};
+use crate::preview::{CartTable, Footprint, Gate, NominalSway, SolePose};
 
 /// Where the pendulum's ZMP is wanted in the coming knots: under the foot that will bear, less what the pendulum leaves out.
 /// Played anew when a request changes what is to come; else one knot is added as one is used.
@@ -17,8 +17,27 @@ pub struct Outlook {
     next: usize,
     /// The walk at the last of them.
     scout: Walk,
-    footprint: Footprint,
-    landing: SolePose,
+    feet: Feet,
+    gate: Gate,
+}
+
+/// Where the feet are in a half-step.
+#[derive(Clone, Copy, Debug)]
+pub struct Feet {
+    /// The bearing one.
+    pub footprint: Footprint,
+    /// Where the other one stands before it swings, in support coordinates.
+    pub standing: SolePose,
+    /// Where it lands.
+    pub landing: SolePose,
+}
+
+impl Feet {
+    /// The feet of the next half-step, whose swing the walk tells.
+    pub fn next(&self, swing: impl FnOnce(&SolePose) -> SolePose) -> Self {
+        let standing = self.landing.seen_from_landed();
+        Self { footprint: self.footprint.next(&self.landing), standing, landing: swing(&standing) }
+    }
 }
 
 impl Outlook {
@@ -28,21 +47,21 @@ impl Outlook {
         tree: &Tree,
         mechanism: &Mechanism,
         walk: &Walk,
-        footprint: Footprint,
-        swing: &SwingPath,
+        feet: &Feet,
+        gate: Gate,
         knots: usize,
     ) -> Self {
         let wanted = vec![Vector2::zeros(); knots];
-        let mut outlook = Self { sway, wanted, next: 0, scout: walk.clone(), footprint, landing: swing.landing };
-        outlook.begin(tree, mechanism, walk, footprint, swing);
+        let mut outlook = Self { sway, wanted, next: 0, scout: walk.clone(), feet: *feet, gate };
+        outlook.begin(tree, mechanism, walk, feet, gate);
         outlook
     }
 
     /// Looks ahead anew from where the walk is.
-    pub fn begin(&mut self, tree: &Tree, mechanism: &Mechanism, walk: &Walk, footprint: Footprint, swing: &SwingPath) {
+    pub fn begin(&mut self, tree: &Tree, mechanism: &Mechanism, walk: &Walk, feet: &Feet, gate: Gate) {
         self.scout.clone_from(walk);
-        self.footprint = footprint;
-        self.landing = swing.landing;
+        self.feet = *feet;
+        self.gate = gate;
         for _ in 0..self.wanted.len() {
             self.advance(tree, mechanism);
         }
@@ -50,13 +69,16 @@ impl Outlook {
 
     /// One knot is past: one more comes into sight.
     pub fn advance(&mut self, tree: &Tree, mechanism: &Mechanism) {
-        if self.scout.advance(KNOT) {
-            self.footprint = self.footprint.next(&self.landing);
-            self.landing = swinging_sole(tree, mechanism, &self.scout, 1.0);
+        if self.gate.advance(&mut self.scout) {
+            self.feet = self.feet.next(|_| swinging_sole(tree, mechanism, &self.scout, 1.0));
         }
-        let speed = self.scout.speed().state().value;
-        let beyond = self.sway.beyond_pendulum(self.scout.half_step().progress, speed);
-        self.wanted[self.next] = self.footprint.point_to_walk(-beyond);
+        let wanted = if self.gate.is_standing() {
+            self.feet.standing.position.xy() * (1.0 - self.gate.weight_on_bearing())
+        } else {
+            let speed = self.scout.speed().state().value;
+            -self.sway.beyond_pendulum(self.scout.half_step().progress, speed)
+        };
+        self.wanted[self.next] = self.feet.footprint.point_to_walk(wanted);
         self.next = (self.next + 1) % self.wanted.len();
     }
 

@@ -6,8 +6,8 @@ use model::{JointVector, Mechanism, Motion, Side};
 use nalgebra::Vector2;
 
 use crate::preview::{
-    CartState, CartTable, Footprint, HipHeight, NominalSway, Outlook, SolePose, SwingPath, Wanted, WholeBody,
-    swinging_sole,
+    CartState, CartTable, Feet, Footprint, Gate, HipHeight, NominalSway, Outlook, SolePose, SwingPath, Wanted,
+    WholeBody, swinging_sole,
 };
 
 /// Time between knots [s].
@@ -26,8 +26,9 @@ pub struct Preview {
     outlook: Outlook,
     /// The walk at the newest knot.
     walk: Walk,
-    /// The bearing foot at the newest knot.
-    footprint: Footprint,
+    gate: Gate,
+    /// The feet at the newest knot.
+    feet: Feet,
     swing: SwingPath,
     hips: HipHeight,
     com: [CartState; 2],
@@ -47,6 +48,8 @@ struct Knot {
     /// Half-steps since the beginning, with their progress.
     place: f64,
     speed: f64,
+    /// Share of the weight that the bearing foot carries.
+    weight: f64,
 }
 
 impl Preview {
@@ -60,14 +63,16 @@ impl Preview {
         let footprint = Footprint::first(walk.half_step().support);
         let com = kinematics.com(&tree).xy();
         let com_velocity = kinematics.com_velocity(&tree, &motion.rates).0.xy();
-        let swing = SwingPath::new(&SolePose::swinging(mechanism, &kinematics), |progress| {
-            swinging_sole(&tree, mechanism, &walk, progress)
-        });
-        let outlook = Outlook::new(sway, &tree, mechanism, &walk, footprint, &swing, cart.knots());
+        let standing = SolePose::swinging(mechanism, &kinematics);
+        let swing = SwingPath::new(&standing, |progress| swinging_sole(&tree, mechanism, &walk, progress));
+        let feet = Feet { footprint, standing, landing: swing.landing };
+        let gate = Gate::Open;
+        let outlook = Outlook::new(sway, &tree, mechanism, &walk, &feet, gate, cart.knots());
         let knot = Knot {
             angles: walk.physical_motion().angles,
             place: walk.half_step().progress,
             speed: walk.speed().state().value,
+            weight: 1.0,
         };
         let mut preview = Self {
             mechanism: mechanism.clone(),
@@ -81,7 +86,8 @@ impl Preview {
             cart,
             outlook,
             walk,
-            footprint,
+            gate,
+            feet,
             swing,
         };
         // The second knot is the beginning; before it the motion came as it goes on.
@@ -105,8 +111,29 @@ impl Preview {
     /// See [`Walk::admit`].
     pub fn admit(&mut self, request: &Request) -> Admission {
         let admission = self.walk.admit(request);
-        self.outlook.begin(&self.tree, &self.mechanism, &self.walk, self.footprint, &self.swing);
+        self.look_ahead();
         admission
+    }
+
+    /// Stops at the end of this half-step and stands on both feet.
+    pub fn stop(&mut self) {
+        self.gate.close(self.walk.half_step().progress);
+        self.look_ahead();
+    }
+
+    /// Walks on, after a stand with a shift of weight first.
+    pub fn start(&mut self) {
+        self.gate.open();
+        self.look_ahead();
+    }
+
+    /// Whether it walks, stands or is about to, at the newest knot.
+    pub fn gate(&self) -> Gate {
+        self.gate
+    }
+
+    fn look_ahead(&mut self) {
+        self.outlook.begin(&self.tree, &self.mechanism, &self.walk, &self.feet, self.gate);
     }
 
     /// What is in force.
@@ -142,6 +169,12 @@ impl Preview {
     pub fn speed(&self) -> f64 {
         let [_, from, to, _] = &self.knots;
         from.speed + (to.speed - from.speed) * self.elapsed / KNOT
+    }
+
+    /// Share of the weight that the bearing foot is to carry now.
+    pub fn weight_on_bearing(&self) -> f64 {
+        let [_, from, to, _] = &self.knots;
+        from.weight + (to.weight - from.weight) * self.elapsed / KNOT
     }
 
     /// What is asked now, in physical joints.
@@ -186,8 +219,12 @@ impl Preview {
         self.outlook.advance(&self.tree, &self.mechanism);
 
         // where the feet go
-        if self.walk.advance(KNOT) {
+        if self.gate.advance(&mut self.walk) {
             self.swap();
+        }
+
+        if self.gate.is_standing() {
+            self.hips.crouch(&self.feet.standing, self.gate.shifted());
         }
 
         // the legs that do both
@@ -198,7 +235,7 @@ impl Preview {
         let swinging = SolePose::swinging(&self.mechanism, &kinematics);
         let pelvis_ahead = kinematics.rotation[PELVIS].column(0).into_owned();
         let wanted = Wanted {
-            com: self.footprint.point_to_support(Vector2::new(self.com[0].x, self.com[1].x)),
+            com: self.feet.footprint.point_to_support(Vector2::new(self.com[0].x, self.com[1].x)),
             hip_height: Kinematics::standing(&self.tree, &nominal.angles).origin[PELVIS].z
                 - self.hips.lowered(half_step.progress),
             pelvis_yaw: pelvis_ahead.y.atan2(pelvis_ahead.x),
@@ -210,19 +247,20 @@ impl Preview {
             Side::Right => angles,
             Side::Left => self.walk.mirror().apply(&angles),
         });
-        let knot =
-            Knot { angles, place: half_step.index as f64 + half_step.progress, speed: self.walk.speed().state().value };
+        let weight = self.gate.weight_on_bearing();
+        let speed = if self.gate.is_standing() { 0.0 } else { self.walk.speed().state().value };
+        let knot = Knot { angles, place: half_step.index as f64 + half_step.progress, speed, weight };
         self.knots.rotate_left(1);
         self.knots[3] = knot;
     }
 
     /// A new half-step begins at the newest knot.
     fn swap(&mut self) {
-        let landed = self.swing.landing;
-        let standing = landed.seen_from_landed();
-        self.footprint = self.footprint.next(&landed);
-        self.swing =
-            SwingPath::new(&standing, |progress| swinging_sole(&self.tree, &self.mechanism, &self.walk, progress));
+        let (tree, mechanism, walk) = (&self.tree, &self.mechanism, &self.walk);
+        self.feet = self.feet.next(|standing| {
+            self.swing = SwingPath::new(standing, |progress| swinging_sole(tree, mechanism, walk, progress));
+            self.swing.landing
+        });
         self.hips.begin_half_step(&self.swing.landing);
         self.body.swap(&self.tree, self.walk.mirror());
     }

@@ -41,6 +41,7 @@ pub fn mode(mode: Mode) -> wire::Mode {
         Mode::Walking => wire::Mode::Walking,
         Mode::Holding => wire::Mode::Holding,
         Mode::Fallen => wire::Mode::Fallen,
+        Mode::Starting => wire::Mode::Starting,
     }
 }
 

@@ -18,7 +18,7 @@ pub fn for_controller(message: &RequestMessage) -> Result<(u64, (gait::Request, 
         Some(wire::Intent::Walk) => Some(Intent::Walk),
         Some(wire::Intent::Stop) => Some(Intent::Stop),
         Some(wire::Intent::Hold) => Some(Intent::Hold),
-        // A robot that lies or stands cannot walk again yet, so that there is nothing to reset to.
+        // A robot that lies cannot get up, so that there is nothing to reset to.
         Some(wire::Intent::Reset) => return Err(Reason::NoWayBack),
     };
     let request = gait::Request { turn, speed, extension };

@@ -11,6 +11,8 @@ pub enum Mode {
     Walking,
     /// On both feet: braking, then still.
     Holding,
+    /// On both feet, the weight going to the foot that is to bear first.
+    Starting,
     /// The robot lies; nothing moves.
     Fallen,
 }

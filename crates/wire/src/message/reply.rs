@@ -31,8 +31,8 @@ codes! {
         ExtensionLimit = 3 "the step extension is larger than this walk can do",
         /// A number is NaN or infinite.
         NotFinite = 4 "a number is not finite",
-        /// The robot lies or stands, and neither can be undone yet.
-        NoWayBack = 5 "a walk cannot begin from a stand or from the ground yet: start a new one",
+        /// The robot lies, or stands without a plan for going on.
+        NoWayBack = 5 "this walk cannot go on any more: start a new one",
         /// Too many requests wait for their tick.
         QueueFull = 6 "too many requests are waiting for their tick",
         /// A code means nothing to this controller.

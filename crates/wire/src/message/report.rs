@@ -16,6 +16,8 @@ codes! {
         Holding = 1 "holding",
         /// Lying, or about to.
         Fallen = 2 "fallen",
+        /// On both feet, the weight going to the foot that is to bear first.
+        Starting = 3 "starting",
     }
 }
 

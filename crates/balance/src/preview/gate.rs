@@ -1,0 +1,101 @@
+//! Stop and start: at a swap both soles are on the ground and at rest, so there the walk can be held and let go again.
+
+use gait::Walk;
+
+use crate::preview::KNOT;
+use crate::preview::swing_path::smooth_step;
+
+/// Whether the walk goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gate {
+    /// Half-step after half-step.
+    Open,
+    /// To the end of a half-step, and on from there if asked meanwhile: a stop is prepared by most of the half-step before it
+    /// and cannot be taken back late in it.
+    Closing {
+        /// How many half-steps begin until then.
+        swaps: u8,
+        /// Whether to walk on after the stand.
+        reopen: bool,
+    },
+    /// Standing on both feet.
+    Closed,
+    /// The weight goes to the foot that is to bear; so many knots are left.
+    Opening(u32),
+}
+
+/// Progress after which a half-step is too far on to prepare a stop at its end.
+const TOO_LATE: f64 = 0.4;
+/// How long the weight takes from the middle to the foot: 0.8 s.
+const SHIFT_KNOTS: u32 = 80;
+
+impl Gate {
+    /// Asks the walk to stop at the next swap, or at the one after it where the half-step is past its first part.
+    pub fn close(&mut self, progress: f64) {
+        *self = match *self {
+            Gate::Open => Gate::Closing { swaps: if progress < TOO_LATE { 1 } else { 2 }, reopen: false },
+            Gate::Closing { swaps, .. } => Gate::Closing { swaps, reopen: false },
+            Gate::Closed | Gate::Opening(_) => Gate::Closed,
+        };
+    }
+
+    /// How many half-steps begin before it stands; none when it walks on or stands.
+    pub fn swaps_to_stand(self) -> u8 {
+        if let Gate::Closing { swaps, .. } = self { swaps } else { 0 }
+    }
+
+    /// Asks the walk to go on.
+    pub fn open(&mut self) {
+        *self = match *self {
+            Gate::Closing { swaps, .. } => Gate::Closing { swaps, reopen: true },
+            Gate::Closed => Gate::Opening(SHIFT_KNOTS),
+            open => open,
+        };
+    }
+
+    /// Moves a walk on by a knot as far as the gate lets it, and says whether a half-step began.
+    pub fn advance(&mut self, walk: &mut Walk) -> bool {
+        match *self {
+            Gate::Open => walk.advance(KNOT),
+            Gate::Closing { swaps, reopen } => {
+                let begins = walk.advance(KNOT);
+                if begins {
+                    *self = match (swaps, reopen) {
+                        (2.., _) => Gate::Closing { swaps: swaps - 1, reopen },
+                        (_, true) => Gate::Opening(SHIFT_KNOTS),
+                        (_, false) => Gate::Closed,
+                    };
+                }
+                begins
+            }
+            Gate::Closed => false,
+            Gate::Opening(left) => {
+                *self = if left > 1 { Gate::Opening(left - 1) } else { Gate::Open };
+                false
+            }
+        }
+    }
+
+    /// Whether the robot is on both feet.
+    pub fn is_standing(self) -> bool {
+        matches!(self, Gate::Closed | Gate::Opening(_))
+    }
+
+    /// Share of the weight that the bearing foot is to carry: half when standing, all when walking.
+    pub fn weight_on_bearing(self) -> f64 {
+        match self {
+            Gate::Open | Gate::Closing { .. } => 1.0,
+            Gate::Closed => 0.5,
+            Gate::Opening(_) => 0.5 + 0.5 * smooth_step(self.shifted()),
+        }
+    }
+
+    /// How much of the time for the shift of weight has passed: from 0 when standing to 1 when walking.
+    pub fn shifted(self) -> f64 {
+        match self {
+            Gate::Open | Gate::Closing { .. } => 1.0,
+            Gate::Closed => 0.0,
+            Gate::Opening(left) => 1.0 - f64::from(left) / f64::from(SHIFT_KNOTS),
+        }
+    }
+}
