@@ -110,21 +110,30 @@ impl Preview {
 
     /// See [`Walk::admit`].
     pub fn admit(&mut self, request: &Request) -> Admission {
+        let before = self.walk.command();
         let admission = self.walk.admit(request);
-        self.look_ahead();
+        if self.walk.command() != before {
+            self.look_ahead();
+        }
         admission
     }
 
     /// Stops at the end of this half-step and stands on both feet.
     pub fn stop(&mut self) {
+        let before = self.gate;
         self.gate.close(self.walk.half_step().progress);
-        self.look_ahead();
+        if self.gate != before {
+            self.look_ahead();
+        }
     }
 
     /// Walks on, after a stand with a shift of weight first.
     pub fn start(&mut self) {
+        let before = self.gate;
         self.gate.open();
-        self.look_ahead();
+        if self.gate != before {
+            self.look_ahead();
+        }
     }
 
     /// Whether it walks, stands or is about to, at the newest knot.
@@ -132,6 +141,7 @@ impl Preview {
         self.gate
     }
 
+    /// What is to come has changed: plays it anew. Not done for a stream that asks the same again and again.
     fn look_ahead(&mut self) {
         self.outlook.begin(&self.tree, &self.mechanism, &self.walk, &self.feet, self.gate);
     }
