@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use balance::preview::Gate;
+use balance::preview::{Gate, Stance};
 use balance::{CentreOfMass, Feedback, Ground, Plan, Sensed, ZmpEstimator};
 use dynamics::{Kinematics, Tree};
 use gait::{Admission, NominalTable, Request, Start, Verdict, Walk, WalkError};
@@ -186,7 +186,8 @@ impl Controller {
         self.intent = intent;
         match intent {
             Intent::Walk => self.pattern.start(),
-            Intent::Stop | Intent::Hold => self.pattern.stop(),
+            Intent::Stop => self.pattern.stop(Stance::Parallel),
+            Intent::Hold => self.pattern.stop(Stance::Stride),
         }
     }
 

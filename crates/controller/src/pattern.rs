@@ -1,7 +1,7 @@
 //! The walking pattern: the modified half-step as it is, or with its balance planned ahead.
 
 use balance::Preview;
-use balance::preview::Gate;
+use balance::preview::{Gate, Stance};
 use gait::{Admission, Command, HalfStep, Request, Walk};
 use model::{Mechanism, Mirror, Motion};
 
@@ -69,10 +69,10 @@ impl Pattern {
         }
     }
 
-    /// Stops at the end of this half-step and stands on both feet, if it can.
-    pub fn stop(&mut self) {
+    /// Stops after the next half-step and stands on both feet, if it can.
+    pub fn stop(&mut self, stance: Stance) {
         if let Pattern::Preview(preview) = self {
-            preview.stop();
+            preview.stop(stance);
         }
     }
 
@@ -117,7 +117,10 @@ impl Pattern {
 
     /// What is in force.
     pub fn command(&self) -> Command {
-        self.walk().command()
+        match self {
+            Pattern::Plain(walk) => walk.command(),
+            Pattern::Preview(preview) => preview.command(),
+        }
     }
 
     /// The swap of canonical and physical joints on the left foot.

@@ -151,23 +151,34 @@ impl Walk {
         Ok(walk)
     }
 
-    /// Takes what is granted of a request and says what that is and when it takes effect: speed at once, turn at the next
-    /// deflecting half-step, extension at the next half-step. What is asked again as it is changes nothing.
+    /// Takes what is granted of a request and says what that is and when it takes effect, see [`Self::force`].
     pub fn admit(&mut self, request: &Request) -> Admission {
-        let now = self.half_step;
-        let in_force = self.command();
+        let mut admission = self.grant(request, self.command());
+        admission.effect_half_step = self.force(&admission.granted);
+        admission
+    }
+
+    /// What would be granted of a request if `in_force` were.
+    pub fn grant(&self, request: &Request, in_force: Command) -> Admission {
         let (verdict, reasons, granted) = request.grant(&self.limits, in_force);
+        Admission { verdict, reasons, granted, effect_half_step: self.half_step.index }
+    }
+
+    /// Walks by `command` from now on and says from which half-step on all of it is in effect: speed at once, turn at the
+    /// next deflecting half-step, extension at the next half-step. What is in force already changes nothing.
+    pub fn force(&mut self, command: &Command) -> u64 {
+        let (now, in_force) = (self.half_step, self.command());
         let mut effect_half_step = now.index;
-        if granted.turn != in_force.turn {
-            effect_half_step = effect_half_step.max(now.index + self.turn.delay(granted.turn, now.support));
+        if command.turn != in_force.turn {
+            effect_half_step = effect_half_step.max(now.index + self.turn.delay(command.turn, now.support));
         }
-        if granted.extension != in_force.extension {
+        if command.extension != in_force.extension {
             effect_half_step = effect_half_step.max(now.index + 1);
         }
-        self.turn.request(granted.turn);
-        self.extension.request(granted.extension);
-        self.speed.request(granted.speed);
-        Admission { verdict, reasons, granted, effect_half_step }
+        self.turn.request(command.turn);
+        self.extension.request(command.extension);
+        self.speed.request(command.speed);
+        effect_half_step
     }
 
     /// Moves on by `dt` [s] and says whether a new half-step began. Progress beyond the end is carried over the swap.

@@ -19,6 +19,15 @@ impl Motion {
         Self { angles, ..Self::default() }
     }
 
+    /// At the middle one of three postures that follow each other every `step` seconds, by differences.
+    pub fn between(before: &JointVector, here: &JointVector, after: &JointVector, step: f64) -> Self {
+        Self {
+            angles: *here,
+            rates: (*after - *before) * (0.5 / step),
+            accelerations: (*after + *before - *here * 2.0) * (1.0 / (step * step)),
+        }
+    }
+
     /// The mirror image, told by the other foot.
     pub fn mirrored(&self, mirror: &Mirror) -> Self {
         Self {

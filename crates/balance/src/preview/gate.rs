@@ -10,11 +10,12 @@ use crate::preview::swing_path::smooth_step;
 pub enum Gate {
     /// Half-step after half-step.
     Open,
-    /// To the end of a half-step, and on from there if asked meanwhile: a stop is prepared by most of the half-step before it
-    /// and cannot be taken back late in it.
+    /// To a stand, and on from there if asked meanwhile.
     Closing {
         /// How many half-steps begin until then.
         swaps: u8,
+        /// How the feet shall stand.
+        stance: Stance,
         /// Whether to walk on after the stand.
         reopen: bool,
     },
@@ -24,17 +25,26 @@ pub enum Gate {
     Opening(u32),
 }
 
-/// Progress after which a half-step is too far on to prepare a stop at its end.
-const TOO_LATE: f64 = 0.4;
+/// How the feet stand when the walk has stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stance {
+    /// As they landed, one before the other.
+    Stride,
+    /// Side by side.
+    Parallel,
+}
+
+/// The half-step in which the stop is asked for goes on as it is, the next one is calm.
+const SWAPS_TO_STAND: u8 = 2;
 /// How long the weight takes from the middle to the foot: 0.8 s.
 const SHIFT_KNOTS: u32 = 80;
 
 impl Gate {
-    /// Asks the walk to stop at the next swap, or at the one after it where the half-step is past its first part.
-    pub fn close(&mut self, progress: f64) {
+    /// Asks the walk to come to a stand.
+    pub fn close(&mut self, stance: Stance) {
         *self = match *self {
-            Gate::Open => Gate::Closing { swaps: if progress < TOO_LATE { 1 } else { 2 }, reopen: false },
-            Gate::Closing { swaps, .. } => Gate::Closing { swaps, reopen: false },
+            Gate::Open => Gate::Closing { swaps: SWAPS_TO_STAND, stance, reopen: false },
+            Gate::Closing { swaps, stance, .. } => Gate::Closing { swaps, stance, reopen: false },
             Gate::Closed | Gate::Opening(_) => Gate::Closed,
         };
     }
@@ -44,24 +54,30 @@ impl Gate {
         if let Gate::Closing { swaps, .. } = self { swaps } else { 0 }
     }
 
-    /// Asks the walk to go on.
+    /// Asks the walk to go on. Once the last half-step before a stand has begun it is too late to take that back.
     pub fn open(&mut self) {
         *self = match *self {
-            Gate::Closing { swaps, .. } => Gate::Closing { swaps, reopen: true },
+            Gate::Closing { swaps: 2.., .. } => Gate::Open,
+            Gate::Closing { swaps, stance, .. } => Gate::Closing { swaps, stance, reopen: true },
             Gate::Closed => Gate::Opening(SHIFT_KNOTS),
             open => open,
         };
+    }
+
+    /// Whether the present half-step ends with the feet side by side.
+    pub fn lands_parallel(self) -> bool {
+        matches!(self, Gate::Closing { swaps: 1, stance: Stance::Parallel, .. })
     }
 
     /// Moves a walk on by a knot as far as the gate lets it, and says whether a half-step began.
     pub fn advance(&mut self, walk: &mut Walk) -> bool {
         match *self {
             Gate::Open => walk.advance(KNOT),
-            Gate::Closing { swaps, reopen } => {
+            Gate::Closing { swaps, stance, reopen } => {
                 let begins = walk.advance(KNOT);
                 if begins {
                     *self = match (swaps, reopen) {
-                        (2.., _) => Gate::Closing { swaps: swaps - 1, reopen },
+                        (2.., _) => Gate::Closing { swaps: swaps - 1, stance, reopen },
                         (_, true) => Gate::Opening(SHIFT_KNOTS),
                         (_, false) => Gate::Closed,
                     };

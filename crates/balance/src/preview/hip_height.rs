@@ -1,12 +1,12 @@
 //! The hips' height: the nominal's, lowered smoothly where a long step would stretch a leg.
 
-use dynamics::{Kinematics, Leg, Tree};
+use dynamics::{Kinematics, Leg};
 use gait::Walk;
-use model::{Joint, Mechanism, Side};
+use model::{Joint, Side};
 use nalgebra::Vector2;
 
-use crate::preview::SolePose;
 use crate::preview::swing_path::smooth_step;
+use crate::preview::{Biped, SolePose};
 
 /// By how much the hips are lowered over a half-step.
 #[derive(Clone, Copy, Debug)]
@@ -24,12 +24,14 @@ pub struct HipHeight {
 
 /// Share of the legs' length that is used at most: the knee keeps a bend of 19°.
 const LEG_SHARE_MAX: f64 = 0.987;
-/// How far the pelvis may be off the middle of both feet when the foot lands [m].
-const PELVIS_OFF_MIDDLE: f64 = 0.06;
+/// How far the hips may be off where they are expected [m].
+const HIPS_OFF: f64 = 0.04;
+/// Progress at which the swinging leg may be longest: the foot is ahead before the body has come after.
+const LATE: [f64; 6] = [0.6, 0.7, 0.8, 0.85, 0.9, 1.0];
 
 impl HipHeight {
     /// Begins with the nominal half-step.
-    pub fn new(tree: &Tree, mechanism: &Mechanism, walk: &Walk) -> Self {
+    pub fn new(Biped { tree, mechanism, .. }: &Biped, walk: &Walk) -> Self {
         let end = Kinematics::standing(tree, &walk.table().at(1.0).angles);
         let length = |joint: Joint| mechanism.links[joint].origin.norm();
         Self {
@@ -42,19 +44,29 @@ impl HipHeight {
         }
     }
 
-    /// A half-step begins that ends at `landing`.
-    pub fn begin_half_step(&mut self, landing: &SolePose) {
-        let spread = landing.position.xy() - Vector2::new(0.0, self.hip_width);
+    /// A half-step begins.
+    ///
+    /// * `swinging` – the swinging sole at a progress
+    /// * `half_duration` – half the half-step's duration times the pendulum's rate
+    pub fn begin_half_step(&mut self, half_duration: f64, swinging: impl Fn(f64) -> SolePose) {
         self.lowered_at_swap = self.lowered_at_end;
         self.lowered_at_start = self.lowered_at_end;
-        self.lowered_at_end = self.needed(spread.norm() / 2.0 + PELVIS_OFF_MIDDLE);
+        let width = Vector2::new(0.0, self.hip_width);
+        let middle = (swinging(1.0).position.xy() - width) / 2.0;
+        let lowered = LATE.map(|progress| {
+            // The pendulum of a steady walk (Kajita 2001): slow walks stay long over the bearing foot.
+            let passed = sinh(half_duration * (2.0 * progress - 1.0)) / sinh(half_duration);
+            let reach = swinging(progress).position.xy() - width - middle * passed;
+            self.needed(reach.norm() + HIPS_OFF)
+        });
+        self.lowered_at_end = lowered.into_iter().fold(0.0, f64::max);
     }
 
     /// Crouches for a start from a stand: the pelvis goes over the bearing foot while the other one, at `standing`, is still
     /// on the ground. Done before the shift of weight, of which `shifted` has passed, gets far.
     pub fn crouch(&mut self, standing: &SolePose, shifted: f64) {
         let spread = standing.position.xy() - Vector2::new(0.0, self.hip_width);
-        let needed = self.needed(spread.norm() + PELVIS_OFF_MIDDLE).max(self.lowered_at_swap);
+        let needed = self.needed(spread.norm() + HIPS_OFF).max(self.lowered_at_swap);
         let done = smooth_step((2.0 * shifted).min(1.0));
         self.lowered_at_start = self.lowered_at_swap + (needed - self.lowered_at_swap) * done;
     }
@@ -68,4 +80,10 @@ impl HipHeight {
     pub fn lowered(&self, progress: f64) -> f64 {
         self.lowered_at_start + (self.lowered_at_end - self.lowered_at_start) * smooth_step(progress)
     }
+}
+
+/// To 1 % up to 2: no function of the system's mathematical library gets into a joint.
+fn sinh(x: f64) -> f64 {
+    let square = x * x;
+    x * (1.0 + square / 6.0 * (1.0 + square / 20.0 * (1.0 + square / 42.0)))
 }

@@ -5,8 +5,12 @@
 //! * **knot**: an instant at which the plan is computed, every [`KNOT`] seconds; between knots joints are interpolated.
 //! * **lead**: the plan is computed a little ahead of the motion, so that there are knots on both sides of now.
 
+mod biped;
 mod cart_table;
+mod course;
 mod footprint;
+mod footwork;
+mod foresight;
 mod gate;
 mod hip_height;
 mod nominal_sway;
@@ -15,12 +19,16 @@ mod planner;
 mod swing_path;
 mod whole_body;
 
+pub use biped::Biped;
 pub use cart_table::{CartState, CartTable};
+pub use course::{Course, Feet};
 pub use footprint::{Footprint, SolePose};
-pub use gate::Gate;
+pub use footwork::Footwork;
+pub use foresight::Foresight;
+pub use gate::{Gate, Stance};
 pub use hip_height::HipHeight;
 pub use nominal_sway::NominalSway;
-pub use outlook::{Feet, Outlook, swinging_sole};
+pub use outlook::Outlook;
 pub use planner::{KNOT, Preview};
 pub use swing_path::SwingPath;
 pub use whole_body::{Wanted, WholeBody};

@@ -16,8 +16,6 @@ pub struct SwingPath {
     end: Vector4<f64>,
     start_rate: Vector4<f64>,
     end_rate: Vector4<f64>,
-    /// Where the foot lands.
-    pub landing: SolePose,
 }
 
 /// Step of progress over which the path's rates are taken.
@@ -27,14 +25,13 @@ impl SwingPath {
     /// Begins a half-step.
     ///
     /// * `standing` – where the foot stands
+    /// * `landing` – where it is to land
     /// * `asked` – the swinging sole of the modified half-step at a progress
-    pub fn new(standing: &SolePose, mut asked: impl FnMut(f64) -> SolePose) -> Self {
+    pub fn new(standing: &SolePose, landing: &SolePose, asked: impl Fn(f64) -> SolePose) -> Self {
         let (first, last) = (vector(&asked(0.0)), vector(&asked(1.0)));
         let start_rate = (vector(&asked(RATE_STEP)) - first) / RATE_STEP;
         let end_rate = (last - vector(&asked(1.0 - RATE_STEP))) / RATE_STEP;
-        let mut landing = pose(last);
-        landing.position.z = 0.0;
-        Self { start: vector(standing) - first, end: vector(&landing) - last, start_rate, end_rate, landing }
+        Self { start: vector(standing) - first, end: vector(landing) - last, start_rate, end_rate }
     }
 
     /// The sole at `progress`, from what the modified half-step asks there.

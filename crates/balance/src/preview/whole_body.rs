@@ -1,10 +1,10 @@
 //! The posture that has the centre of mass and the feet where they are wanted, by leg inverse kinematics.
 
-use dynamics::{Kinematics, Leg, Tree, Unreachable, solve_leg};
-use model::{Joint, JointVector, Mechanism, Mirror, Side};
+use dynamics::{Kinematics, Leg, Unreachable, solve_leg};
+use model::{Joint, JointVector, Side};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2, Vector3};
 
-use crate::preview::SolePose;
+use crate::preview::{Biped, SolePose};
 
 /// What is wanted of a posture, in support coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -17,6 +17,8 @@ pub struct Wanted {
     pub pelvis_yaw: f64,
     /// The other foot.
     pub swinging: SolePose,
+    /// Waist and arms; the legs' angles are not used.
+    pub upper: JointVector,
 }
 
 /// Finds postures, each from the one before.
@@ -31,6 +33,8 @@ pub struct WholeBody {
     hip_change: Vector2<f64>,
 }
 
+/// Share of a leg's length that is used at most: the knee keeps a bend of 15°.
+const LEG_SHARE_MAX: f64 = 0.994;
 const PELVIS: Joint = Leg(Side::Right).end();
 const ROUNDS: usize = 6;
 /// How near the centre of mass must be to where it is wanted [m]: 1 µm in a knot is a millimetre of ZMP.
@@ -40,35 +44,36 @@ const COM_PER_PELVIS: f64 = 0.88;
 
 impl WholeBody {
     /// Begins from a posture.
-    pub fn new(tree: &Tree, angles: &JointVector) -> Self {
-        let kinematics = Kinematics::standing(tree, angles);
-        let hip_from_com = kinematics.origin[PELVIS].xy() - kinematics.com(tree).xy();
+    pub fn new(biped: &Biped, angles: &JointVector) -> Self {
+        let kinematics = Kinematics::standing(&biped.tree, angles);
+        let hip_from_com = kinematics.origin[PELVIS].xy() - kinematics.com(&biped.tree).xy();
         Self { angles: *angles, change: JointVector::ZERO, hip_from_com, hip_change: Vector2::zeros() }
     }
 
-    /// The posture that fulfils `wanted`; waist and arms are `upper`'s.
+    /// Tells how the angles will likely change.
+    pub fn expect(&mut self, change: &JointVector) {
+        self.change = *change;
+    }
+
+    /// The posture that fulfils `wanted`.
     ///
     /// # Errors
     /// [`Unreachable`] when a leg is too short; the posture stays.
-    pub fn reach(
-        &mut self,
-        tree: &Tree,
-        mechanism: &Mechanism,
-        upper: &JointVector,
-        wanted: &Wanted,
-    ) -> Result<JointVector, Unreachable> {
+    pub fn reach(&mut self, biped: &Biped, wanted: &Wanted) -> Result<JointVector, Unreachable> {
+        let Biped { tree, mechanism, .. } = biped;
         let mut angles = self.angles + self.change;
         for joint in Joint::ALL.into_iter().filter(|joint| !joint.is_in_leg()) {
-            angles[joint] = upper[joint];
+            angles[joint] = wanted.upper[joint];
         }
         let ankle = Translation3::from(-mechanism.sole_in_foot(Side::Left));
         let foot = wanted.swinging.to_support() * ankle;
         let heading = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), wanted.pelvis_yaw);
 
         let mut hip = wanted.com + self.hip_from_com + self.hip_change;
+        let hip_height = self.within_reach(biped, wanted.hip_height, hip, &heading, &foot.translation.vector);
         let mut com = wanted.com;
         for _ in 0..ROUNDS {
-            let pelvis = Isometry3::from_parts(Translation3::new(hip.x, hip.y, wanted.hip_height), heading);
+            let pelvis = Isometry3::from_parts(Translation3::new(hip.x, hip.y, hip_height), heading);
             solve_leg(tree, Leg(Side::Right), &pelvis, &mut angles)?;
             solve_leg(tree, Leg(Side::Left), &foot, &mut angles)?;
             com = Kinematics::standing(tree, &angles).com(tree).xy();
@@ -85,9 +90,35 @@ impl WholeBody {
         Ok(angles)
     }
 
-    /// The other foot bears: the same posture told from there.
-    pub fn swap(&mut self, tree: &Tree, mirror: &Mirror) {
-        let change = mirror.apply(&self.change);
-        *self = Self { change, ..Self::new(tree, &mirror.apply(&self.angles)) };
+    /// The hips' height, lowered where a leg would be too short.
+    fn within_reach(
+        &self,
+        biped: &Biped,
+        height: f64,
+        hip: Vector2<f64>,
+        heading: &UnitQuaternion<f64>,
+        other_ankle: &Vector3<f64>,
+    ) -> f64 {
+        let links = &biped.mechanism.links;
+        let leg_max =
+            LEG_SHARE_MAX * (links[Joint::RightKnee].origin.norm() + links[Joint::RightHipPitch].origin.norm());
+        let reach = |hip: Vector2<f64>, ankle: &Vector3<f64>| {
+            ankle.z + (leg_max * leg_max - (hip - ankle.xy()).norm_squared()).max(0.0).sqrt()
+        };
+        let bearing_ankle = Vector3::z() * biped.mechanism.sole.ankle_height;
+        let other_hip = hip + (heading * links[Joint::LeftHipRoll].origin).xy();
+        soft_min(soft_min(height, reach(hip, &bearing_ankle)), reach(other_hip, other_ankle))
     }
+
+    /// The other foot bears: the same posture told from there.
+    pub fn swap(&mut self, biped: &Biped) {
+        let change = biped.mirror.apply(&self.change);
+        *self = Self { change, ..Self::new(biped, &biped.mirror.apply(&self.angles)) };
+    }
+}
+
+/// The smaller of two lengths [m], rounded where they are about the same.
+fn soft_min(a: f64, b: f64) -> f64 {
+    const ROUNDING: f64 = 0.006;
+    0.5 * (a + b - ((a - b) * (a - b) + ROUNDING * ROUNDING).sqrt())
 }

@@ -1,0 +1,143 @@
+//! Foresight: the whole body is played ahead over the pendulum's plan, to see by how much its ZMP will miss (the second
+//! preview of Kajita et al. 2003).
+
+use dynamics::{NewtonEuler, zmp};
+use model::{JointVector, Motion, Side};
+use nalgebra::Vector2;
+
+use crate::preview::biped::KNOTS_FORESEEN;
+use crate::preview::{Biped, CartState, Footprint, Footwork, KNOT, Outlook, WholeBody};
+
+/// The coming knots as the pendulum alone would have them. Played anew when a request changes what is to come; else one
+/// knot is added as one is used.
+#[derive(Clone, Debug)]
+pub struct Foresight {
+    /// At the farthest knot.
+    footwork: Footwork,
+    outlook: Outlook,
+    body: WholeBody,
+    inverse: NewtonEuler,
+    /// A ring: the knot before the present one, the present one, the coming ones.
+    knots: [Foreseen; KNOTS_FORESEEN + 2],
+    /// Where in it the present knot is.
+    present: usize,
+    /// How many knots after the present one are known.
+    ahead: usize,
+}
+
+/// One knot to come.
+#[derive(Clone, Copy, Debug)]
+struct Foreseen {
+    /// The pendulum along x and y of the walk frame.
+    com: [CartState; 2],
+    /// Physical joints.
+    angles: JointVector,
+    /// What the outlook takes the pendulum to leave out of the ZMP, in the walk frame [m].
+    expected: Vector2<f64>,
+    /// What it leaves out besides [m].
+    unexpected: Vector2<f64>,
+}
+
+impl Foresight {
+    /// Looks ahead from a walk's very beginning.
+    pub fn new(biped: &Biped, footwork: &Footwork, com: [CartState; 2], motion: &Motion) -> Self {
+        let angles = footwork.physical(biped, &motion.angles);
+        let now = Foreseen { com, angles, expected: Vector2::zeros(), unexpected: Vector2::zeros() };
+        let before = Foreseen { angles: footwork.physical(biped, &(motion.angles - motion.rates * KNOT)), ..now };
+        let mut knots = [before; KNOTS_FORESEEN + 2];
+        knots[0] = now;
+        let mut foresight = Self {
+            outlook: Outlook::new(biped, &footwork.course),
+            footwork: footwork.clone(),
+            body: WholeBody::new(biped, &motion.angles),
+            inverse: NewtonEuler::default(),
+            knots,
+            present: 0,
+            ahead: 0,
+        };
+        foresight.begin(biped, footwork);
+        foresight
+    }
+
+    /// Looks ahead anew from where the walk is at the present knot.
+    pub fn begin(&mut self, biped: &Biped, footwork: &Footwork) {
+        self.footwork.clone_from(footwork);
+        self.outlook.begin(biped, &footwork.course);
+        self.ahead = 0;
+        let [before, now] =
+            [self.slot(0) + self.knots.len() - 1, self.slot(0)].map(|slot| self.knots[slot % self.knots.len()].angles);
+        self.body = WholeBody::new(biped, &footwork.physical(biped, &now));
+        self.body.expect(&footwork.physical(biped, &(now - before)));
+        while self.ahead < KNOTS_FORESEEN {
+            self.extend(biped);
+        }
+    }
+
+    /// The next knot becomes the present one, and one more comes into sight.
+    pub fn advance(&mut self, biped: &Biped) {
+        self.present = self.slot(1);
+        self.ahead -= 1;
+        self.extend(biped);
+    }
+
+    /// The pendulum at the present knot.
+    pub fn com(&self) -> Vector2<f64> {
+        let [x, y] = &self.knots[self.present].com;
+        Vector2::new(x.x, y.x)
+    }
+
+    /// What the correction is to do about the coming knots, each times its gain, along both axes of the walk frame.
+    pub fn weighed(&self, biped: &Biped) -> Vector2<f64> {
+        (0..KNOTS_FORESEEN)
+            .map(|ahead| self.knots[self.slot(ahead + 1)].unexpected * -biped.correction.gain(ahead))
+            .sum()
+    }
+
+    fn slot(&self, ahead: usize) -> usize {
+        (self.present + ahead) % self.knots.len()
+    }
+
+    fn extend(&mut self, biped: &Biped) {
+        let [before, last, new] =
+            [self.ahead + self.knots.len() - 1, self.ahead, self.ahead + 1].map(|ahead| self.slot(ahead));
+        let Foreseen { com, unexpected, .. } = self.knots[last];
+        let footprint = self.footwork.course.feet.footprint;
+
+        let wanted = self.outlook.weighed(&biped.pendulum);
+        let com = [0, 1].map(|axis| biped.pendulum.advance(&com[axis], wanted[axis]));
+        self.outlook.advance(biped);
+        if self.footwork.advance(biped) {
+            self.body.swap(biped);
+        }
+        let posture = self.footwork.wanted(biped, Vector2::new(com[0].x, com[1].x));
+        let reached = self.body.reach(biped, &posture);
+        let angles = reached.map_or(self.knots[last].angles, |angles| self.footwork.physical(biped, &angles));
+        let expected =
+            self.footwork.course.feet.footprint.direction_to_walk(self.footwork.course.beyond_pendulum(biped));
+        self.knots[new] = Foreseen { com, angles, expected, unexpected };
+        self.ahead += 1;
+
+        // Only now the knot before it has a neighbour on either side.
+        if let Some(missed) = self.missed(biped, footprint, [before, last, new]) {
+            self.knots[last].unexpected = missed;
+            self.knots[new].unexpected = missed;
+        }
+    }
+
+    /// What the pendulum leaves out of the ZMP and nobody expected at the middle one of three knots, in the walk frame [m].
+    fn missed(&mut self, biped: &Biped, footprint: Footprint, slots: [usize; 3]) -> Option<Vector2<f64>> {
+        let [before, here, after] = slots.map(|slot| &self.knots[slot].angles);
+        let motion = Motion::between(before, here, after, KNOT);
+        match footprint.side {
+            Side::Right => self.inverse.stand(&biped.tree, &motion),
+            Side::Left => self.inverse.stand(&biped.tree, &motion.mirrored(&biped.mirror)),
+        }
+        let whole = footprint.point_to_walk(zmp(&self.inverse.ground)?);
+        let knot = &self.knots[slots[1]];
+        let pendulum = Vector2::from([0, 1].map(|axis| {
+            let [position, _, acceleration] = knot.com[axis].into();
+            position - biped.sway.height_over_gravity * acceleration
+        }));
+        Some(whole - pendulum - knot.expected)
+    }
+}
