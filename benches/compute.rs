@@ -8,9 +8,9 @@ use std::path::Path;
 
 use balance::{GroundSplit, LeanAt, PaperLean, zmp_by_speed_law};
 use criterion::{Criterion, criterion_group, criterion_main};
-use dynamics::{ArticulatedBody, Kinematics, NewtonEuler, Tree, mass_matrix, zmp};
+use dynamics::{ArticulatedBody, Kinematics, Leg, LegSolver, NewtonEuler, Tree, mass_matrix, solve_leg, zmp};
 use gait::{NominalRow, NominalTable, at_speed};
-use model::{JointVector, Mechanism, Motion, PerJoint};
+use model::{JointVector, Mechanism, Motion, PerJoint, Side};
 use nalgebra::{Isometry3, Vector3};
 use plant::{Plant, Setpoint};
 
@@ -65,6 +65,37 @@ fn dynamics(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// Both legs of a walking posture.
+fn leg_ik(criterion: &mut Criterion) {
+    let (mechanism, nominal) = (mechanism(), nominal());
+    let (tree, solver) = (Tree::new(&mechanism), LegSolver::new(&mechanism));
+    let [near, wanted] = [29, 30].map(|row: usize| nominal.rows[row].motion.angles);
+    let kinematics = Kinematics::standing(&tree, &wanted);
+    let pelvis = kinematics.link_to_world(Leg(Side::Right).end());
+    let feet = Side::BOTH.map(|side| kinematics.link_to_world(Mechanism::foot(side)));
+    let mut group = criterion.benchmark_group("leg_ik");
+
+    group.bench_function("closed_form", |bencher| {
+        let mut angles = near;
+        bencher.iter(|| {
+            for side in Side::BOTH {
+                let (pelvis, foot) = black_box((&pelvis, &feet[side.index()]));
+                solver.solve(&tree, Leg(side), pelvis, foot, &mut angles).expect("within reach");
+            }
+            angles
+        });
+    });
+    group.bench_function("newton", |bencher| {
+        bencher.iter(|| {
+            let mut angles = black_box(near);
+            solve_leg(&tree, Leg(Side::Right), &pelvis, &mut angles).expect("within reach");
+            solve_leg(&tree, Leg(Side::Left), &feet[Side::Left.index()], &mut angles).expect("within reach");
+            angles
+        });
+    });
+    group.finish();
+}
+
 /// Whole half-steps of 61 instants.
 fn balance(criterion: &mut Criterion) {
     let (mechanism, nominal) = (mechanism(), nominal());
@@ -98,5 +129,5 @@ fn plant(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, dynamics, balance, plant);
+criterion_group!(benches, dynamics, leg_ik, balance, plant);
 criterion_main!(benches);

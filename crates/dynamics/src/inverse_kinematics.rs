@@ -9,7 +9,7 @@ use nalgebra::{Isometry3, Matrix6, UnitQuaternion, Vector3, Vector6};
 use crate::{Kinematics, Tree};
 
 /// Residual below which a pose counts as reached [m and rad].
-const TOLERANCE: f64 = 1e-12;
+pub(crate) const TOLERANCE: f64 = 1e-12;
 const ITERATIONS_MAX: usize = 40;
 /// Longest Newton step [rad]; a stretched leg asks for wild ones.
 const STEP_MAX: f64 = 0.3;
@@ -47,7 +47,17 @@ impl Leg {
 /// # Errors
 /// [`Unreachable`] leaves the closest angles found.
 pub fn solve_leg(tree: &Tree, leg: Leg, target: &Isometry3<f64>, angles: &mut JointVector) -> Result<(), Unreachable> {
-    let mut kinematics = Kinematics::standing(tree, angles);
+    solve_leg_from(Kinematics::standing(tree, angles), tree, leg, target, angles)
+}
+
+/// As [`solve_leg`], with what carries the leg placed already.
+pub(crate) fn solve_leg_from(
+    mut kinematics: Kinematics,
+    tree: &Tree,
+    leg: Leg,
+    target: &Isometry3<f64>,
+    angles: &mut JointVector,
+) -> Result<(), Unreachable> {
     let mut residual = f64::INFINITY;
     for _ in 0..ITERATIONS_MAX {
         // What carries the leg stays where it is.

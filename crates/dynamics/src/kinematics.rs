@@ -43,10 +43,15 @@ impl Kinematics {
     /// The floating robot, whose right sole frame has the given pose.
     #[inline]
     pub fn float(&mut self, tree: &Tree, right_sole: &Isometry3<f64>, angles: &JointVector) {
-        let base = Mechanism::foot(Side::Right);
-        self.rotation[base] = right_sole.rotation.to_rotation_matrix().into_inner();
-        self.origin[base] = right_sole.translation.vector;
+        self.place(Mechanism::foot(Side::Right), right_sole);
         self.chain(tree, angles, Tree::floating_joints());
+    }
+
+    /// Puts one link where it is told.
+    #[inline(always)]
+    pub(crate) fn place(&mut self, link: Joint, link_to_world: &Isometry3<f64>) {
+        self.rotation[link] = link_to_world.rotation.to_rotation_matrix().into_inner();
+        self.origin[link] = link_to_world.translation.vector;
     }
 
     /// Places the links of `joints`, whose parents are placed already or among them.

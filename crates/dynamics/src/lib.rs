@@ -7,9 +7,12 @@
 //! model and data.
 
 mod articulated_body;
+mod atan2;
 mod energy;
 mod inverse_kinematics;
 mod kinematics;
+mod leg_geometry;
+mod leg_solver;
 mod mass_matrix;
 mod newton_euler;
 mod sin_cos;
@@ -19,9 +22,11 @@ mod tree;
 mod zmp;
 
 pub use articulated_body::{Accelerations, ArticulatedBody, LinkLoad};
+pub use atan2::atan2;
 pub use energy::{kinetic_energy, potential_energy};
 pub use inverse_kinematics::{Leg, Unreachable, solve_leg};
 pub use kinematics::Kinematics;
+pub use leg_solver::LegSolver;
 pub use mass_matrix::{MassMatrix, mass_matrix};
 pub use newton_euler::{BaseMotion, NewtonEuler};
 pub use sin_cos::sin_cos;
