@@ -1,4 +1,5 @@
 //! The tick allocates nothing: walking, swapping feet, answering requests, braking, standing, and with bad measurements.
+//! Nor does the plant's step, whatever happens to the robot.
 //!
 //! Method: an allocator that counts what this thread asks of it.
 
@@ -7,7 +8,8 @@ use std::cell::Cell;
 
 use controller::Intent;
 use gait::Request;
-use halfstep_tests::walking::Walking;
+use halfstep_tests::mechanism;
+use halfstep_tests::walking::{Walking, controller_parameters, plant_parameters};
 
 struct Counting;
 
@@ -61,4 +63,25 @@ fn whatever_happens() {
         }
     });
     assert_eq!(count, 0, "in 6100 ticks of controller and plant");
+}
+
+#[test]
+fn nor_whatever_happens_to_the_robot() {
+    let script = "[[push]]\nat_s = 0.1\nlasts_s = 0.2\nimpulse_n_s = [1, 2, 3]\nlink = \"left_foot\"\n\
+                  [[push]]\nat_s = 0.2\nlasts_s = 0.2\nimpulse_n_s = [300, 2, 3]\n\
+                  [[sensor_fault]]\nat_s = 0.1\nlasts_s = 0.1\nkind = \"delay\"\ndelay_periods = 31\n\
+                  [[sensor_fault]]\nat_s = 0.15\nlasts_s = 0.2\nkind = \"nan\"\n";
+    let parameters = plant::Parameters {
+        payload: plant::Payload { mass: 5.0, at: Default::default() },
+        mass_error: 0.05,
+        ..plant_parameters()
+    };
+    let mut walking = Walking::begin_with(&mechanism(), &controller_parameters(), &parameters, 1);
+    walking.plant.disturbances = plant::Disturbances::from_toml(script, "script").expect("it is good");
+    let count = allocations(|| {
+        for _ in 0..1000 {
+            walking.tick(None);
+        }
+    });
+    assert_eq!(count, 0, "in 1000 ticks of controller and plant");
 }

@@ -56,7 +56,7 @@ impl Walking {
             .expect("the committed nominal walks")
             .physical_motion();
         let mut plant = Plant::new(mechanism, plant, &start, PERIOD, seed);
-        let measured = sensed(&plant.measure(), 0);
+        let measured = sensed(&plant.measure());
         let controller =
             Controller::new(mechanism, table, controller, Start::default()).expect("the committed nominal walks");
         Self { controller, plant, measured, tick: 0 }
@@ -66,7 +66,7 @@ impl Walking {
     pub fn tick(&mut self, request: Option<(&Request, Option<Intent>)>) -> TickReport {
         let report = self.controller.tick(PERIOD, Some(&self.measured), request);
         self.tick += 1;
-        self.measured = sensed(&self.plant.step(&setpoint(&report)), self.tick);
+        self.measured = sensed(&self.plant.step(&setpoint(&report)));
         report
     }
 
@@ -88,9 +88,9 @@ impl Walking {
     }
 }
 
-fn sensed(measured: &plant::Measurement, tick: u64) -> Measurement {
+fn sensed(measured: &plant::Measurement) -> Measurement {
     Measurement {
-        tick,
+        tick: measured.sample,
         angles: measured.angles,
         rates: measured.rates,
         feet: measured.feet,

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use gait::NominalTable;
 use model::{Joint, Mechanism, Mirror};
+use plant::Disturbances;
 
 use crate::failure::Failure;
 
@@ -95,6 +96,11 @@ impl ConfigOptions {
     /// Reads what is set about the plant.
     pub fn plant(&self, errors: &mut Errors) -> Option<plant::Parameters> {
         errors.note(plant::Parameters::load(self.config.join("plant.toml")))
+    }
+
+    /// Reads what happens to the plant, if anything.
+    pub fn disturbances(file: Option<&Path>, errors: &mut Errors) -> Option<Disturbances> {
+        file.map_or_else(|| Some(Disturbances::default()), |file| errors.note(Disturbances::load(file)))
     }
 
     /// The same options, for another process.

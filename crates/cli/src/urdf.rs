@@ -38,22 +38,7 @@ const fn root() -> Joint {
 
 /// What the link that a joint carries is called.
 fn link_name(joint: Joint) -> String {
-    let body = match joint {
-        Joint::FootPitch => "right_foot",
-        Joint::RightAnklePitch => "right_shank",
-        Joint::RightKnee => "right_thigh",
-        Joint::RightHipRoll => "pelvis",
-        Joint::LeftHipPitch => "left_thigh",
-        Joint::LeftKnee => "left_shank",
-        Joint::LeftAnkleRoll => "left_foot",
-        Joint::WaistRoll => "trunk",
-        Joint::RightShoulder => "right_upper_arm",
-        Joint::RightElbow => "right_forearm",
-        Joint::LeftShoulder => "left_upper_arm",
-        Joint::LeftElbow => "left_forearm",
-        between => return format!("{}_link", between.name()),
-    };
-    body.to_string()
+    joint.link_name().map_or_else(|| format!("{}_link", joint.name()), str::to_owned)
 }
 
 fn joint(mechanism: &Mechanism, joint: Joint) -> urdf_rs::Joint {

@@ -11,6 +11,8 @@ use crate::{Kinematics, Tree};
 /// Forward dynamics and its intermediates. Filled in two stages, so that contact forces can be computed between them.
 #[derive(Clone, Debug)]
 pub struct ArticulatedBody {
+    /// Acceleration of free fall in world axes [m/s²]: downward by default.
+    pub gravity: Vector3<f64>,
     /// Filled by [`ArticulatedBody::set_state`]: where every link is, in world axes about the *right sole's origin*.
     pub kinematics: Kinematics,
     /// Filled by [`ArticulatedBody::set_state`]: spatial velocity of each link.
@@ -55,6 +57,7 @@ impl Default for ArticulatedBody {
         let vectors = PerJoint([Vector6::zeros(); Joint::COUNT]);
         let matrices = PerJoint([Matrix6::zeros(); Joint::COUNT]);
         Self {
+            gravity: Vector3::new(0.0, 0.0, -GRAVITY),
             kinematics: Kinematics::default(),
             velocity: vectors,
             subspace: vectors,
@@ -148,7 +151,7 @@ impl ArticulatedBody {
         self.bias = self.rigid_bias;
         for load in loads {
             // The load yields to true accelerations; those computed here have gravity's upward one in them.
-            let at_rest = load.added_inertia.column(5) * GRAVITY;
+            let at_rest = load.added_inertia.fixed_columns::<3>(3) * -self.gravity;
             self.inertia[load.link] += load.added_inertia;
             self.bias[load.link] -= spatial(load.wrench.moment, load.wrench.force) + at_rest;
         }
@@ -188,18 +191,12 @@ impl ArticulatedBody {
         let angular = base.fixed_rows::<3>(0).into_owned();
         let linear = base.fixed_rows::<3>(3).into_owned();
         let (rate, velocity) = split(&self.velocity[BASE]);
-        Accelerations {
-            base_angular: angular,
-            base_linear: linear + rate.cross(&velocity) - Vector3::new(0.0, 0.0, GRAVITY),
-            joints,
-        }
+        Accelerations { base_angular: angular, base_linear: linear + rate.cross(&velocity) + self.gravity, joints }
     }
 
     /// After [`ArticulatedBody::accelerations`]: spatial acceleration of a link, gravity's free fall included.
     pub fn link_acceleration(&self, link: Joint) -> Vector6<f64> {
-        let mut acceleration = self.acceleration[link];
-        acceleration[5] -= GRAVITY;
-        acceleration
+        self.acceleration[link] + spatial(Vector3::zeros(), self.gravity)
     }
 }
 

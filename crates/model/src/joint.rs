@@ -122,6 +122,27 @@ impl Joint {
         }
     }
 
+    /// The name of the link that the joint carries: `right_shank`. `None` where joints meet in one point, with nothing
+    /// but the next joint between them.
+    pub const fn link_name(self) -> Option<&'static str> {
+        use Joint::*;
+        Some(match self {
+            FootPitch => "right_foot",
+            RightAnklePitch => "right_shank",
+            RightKnee => "right_thigh",
+            RightHipRoll => "pelvis",
+            LeftHipPitch => "left_thigh",
+            LeftKnee => "left_shank",
+            LeftAnkleRoll => "left_foot",
+            WaistRoll => "trunk",
+            RightShoulder => "right_upper_arm",
+            RightElbow => "right_forearm",
+            LeftShoulder => "left_upper_arm",
+            LeftElbow => "left_forearm",
+            _ => return None,
+        })
+    }
+
     /// The joint named `name` in files.
     pub fn from_name(name: &str) -> Option<Joint> {
         Joint::ALL.into_iter().find(|joint| joint.name() == name)

@@ -124,7 +124,7 @@ impl FootContact {
 }
 
 /// Spatial inertia of a point with a different mass along each world axis.
-fn point_inertia(arm: Vector3<f64>, mass: Vector3<f64>) -> Matrix6<f64> {
+pub(crate) fn point_inertia(arm: Vector3<f64>, mass: Vector3<f64>) -> Matrix6<f64> {
     let mut jacobian = Matrix3x6::zeros();
     jacobian.fixed_view_mut::<3, 3>(0, 0).copy_from(&-arm.cross_matrix());
     jacobian.fixed_view_mut::<3, 3>(0, 3).fill_with_identity();

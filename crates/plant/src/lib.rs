@@ -6,15 +6,30 @@
 //! clock here: whoever calls decides when.
 
 mod contact;
+mod disturbances;
+mod loads;
+mod mass_error;
 mod motor;
 mod parameters;
+mod payload;
+mod push;
 mod robot;
+mod sensor_fault;
 mod sensors;
+mod slope;
 mod step;
+mod truth;
 
 pub use contact::{FootContact, FootMotion, GroundContact};
+pub use disturbances::Disturbances;
+pub use mass_error::with_mass_error;
 pub use motor::{Drive, DriveTorque};
 pub use parameters::{ContactParameters, Parameters, SensorParameters, ServoParameters};
+pub use payload::Payload;
+pub use push::Push;
 pub use robot::RobotState;
+pub use sensor_fault::{SensedValues, SensorFault, SensorFaultKind};
 pub use sensors::{Measurement, Sensors};
-pub use step::{Plant, Setpoint, Truth};
+pub use slope::Slope;
+pub use step::{Plant, Setpoint};
+pub use truth::Truth;

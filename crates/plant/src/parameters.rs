@@ -5,11 +5,22 @@ use std::path::Path;
 use model::config::{self, ConfigErrors, Document, Table};
 use model::{Joint, PerJoint};
 
+use crate::{Payload, Slope};
+
+/// Steepest floor [deg]: far beyond what anyone stands on.
+const SLOPE_MAX_DEG: f64 = 40.0;
+
 /// All of it; `config/plant.toml`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameters {
     /// Integration steps per control period.
     pub steps_per_period: u32,
+    /// Largest share by which each link's mass and inertia are wrong, 0 to 1; the plant's seed decides.
+    pub mass_error: f64,
+    /// How the floor rises.
+    pub slope: Slope,
+    /// What the robot carries.
+    pub payload: Payload,
     /// The ground under the soles.
     pub contact: ContactParameters,
     /// The drives' position servos.
@@ -39,12 +50,26 @@ impl Parameters {
         let (legs_and_waist, arms) = (servo(&servos.table("legs_and_waist")), servo(&servos.table("arms")));
         let parameters = Self {
             steps_per_period: root.integer("steps_per_period", 1, 100) as u32,
+            mass_error: root.number("mass_error").between(0.0, 0.5),
+            slope: slope(&root.table("slope")),
+            payload: payload(&root.table("payload")),
             contact: contact(&root.table("contact")),
             servo: PerJoint::from_fn(|joint| if joint >= Joint::RightShoulder { arms } else { legs_and_waist }),
             sensors: sensors(&root.table("sensors")),
         };
         document.finish(parameters)
     }
+}
+
+fn slope(table: &Table) -> Slope {
+    Slope {
+        ahead: table.angle("ahead_deg").between(-SLOPE_MAX_DEG, SLOPE_MAX_DEG),
+        left: table.angle("left_deg").between(-SLOPE_MAX_DEG, SLOPE_MAX_DEG),
+    }
+}
+
+fn payload(table: &Table) -> Payload {
+    Payload { mass: table.number("mass_kg").not_negative(), at: table.numbers("at_m").any().into() }
 }
 
 fn contact(table: &Table) -> ContactParameters {
@@ -164,6 +189,9 @@ impl Default for Parameters {
         let arms = ServoParameters { stiffness: 500.0, damping: 15.0 };
         Self {
             steps_per_period: 4,
+            mass_error: 0.0,
+            slope: Slope::default(),
+            payload: Payload::default(),
             contact: ContactParameters::default(),
             servo: PerJoint::from_fn(|joint| if joint >= Joint::RightShoulder { arms } else { legs_and_waist }),
             sensors: SensorParameters::default(),

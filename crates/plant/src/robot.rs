@@ -1,8 +1,11 @@
 //! The state of the floating robot.
 
 use dynamics::{Accelerations, Kinematics, Tree};
-use model::{JointVector, Mechanism, Motion, Side};
+use model::{Joint, JointVector, Mechanism, Motion, Side};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+
+/// The link with the inertial measurement unit; it also carries the payload.
+pub(crate) const TRUNK: Joint = Joint::WaistRoll;
 
 /// Where the robot is and how it moves. The base is the right sole.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +57,35 @@ impl RobotState {
     /// Pose of a sole in the world.
     pub fn sole(&self, tree: &Tree, mechanism: &Mechanism, side: Side) -> Isometry3<f64> {
         self.kinematics(tree).sole_to_world(mechanism, side)
+    }
+
+    /// Angular rate of a link [rad/s], and velocity of a `point` of the world that moves with it [m/s], in world axes;
+    /// `kinematics` as now.
+    pub fn link_velocity(
+        &self,
+        mechanism: &Mechanism,
+        kinematics: &Kinematics,
+        link: Joint,
+        point: Vector3<f64>,
+    ) -> (Vector3<f64>, Vector3<f64>) {
+        let mut rate = self.angular_rate;
+        let mut velocity = self.velocity + rate.cross(&(point - self.sole_to_world.translation.vector));
+        let mut carried_by = Some(link);
+        while let Some(joint) = carried_by.filter(|joint| joint.is_powered()) {
+            let spin = kinematics.axis[joint] * self.rates[joint];
+            rate += spin;
+            velocity += spin.cross(&(point - kinematics.origin[joint]));
+            carried_by = mechanism.links[joint].parent;
+        }
+        (rate, velocity)
+    }
+
+    /// Centre of mass of the links in the world [m] and its velocity [m/s]; `kinematics` as now.
+    pub fn com(&self, tree: &Tree, kinematics: &Kinematics) -> (Vector3<f64>, Vector3<f64>) {
+        let com = kinematics.com(tree);
+        let (against_sole, _) = kinematics.com_velocity(tree, &self.rates);
+        let arm = com - self.sole_to_world.translation.vector;
+        (com, self.velocity + self.angular_rate.cross(&arm) + against_sole)
     }
 
     /// Whether every number is finite.

@@ -11,13 +11,16 @@ use crate::SensorParameters;
 /// What the robot senses in one control period.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measurement {
+    /// Which sample it is: the control period since the plant's start in which it should arrive. The same number again
+    /// is the same sample again.
+    pub sample: u64,
     /// Joint angles [rad]; the first two are the tilt of the bearing sole.
     pub angles: JointVector,
     /// [rad/s]; the first two are not sensed and zero.
     pub rates: JointVector,
     /// Of the ground on the right and on the left foot, about the sole's origin in sole axes.
     pub feet: [Wrench; 2],
-    /// Of the trunk: maps trunk coordinates to world axes.
+    /// Of the trunk: maps trunk coordinates to level axes, whose z is the true vertical; world axes on a level floor.
     pub orientation: UnitQuaternion<f64>,
     /// Of the trunk, in its own axes [rad/s].
     pub angular_rate: Vector3<f64>,
@@ -46,6 +49,7 @@ impl Sensors {
     /// Absorbs the truth of this period and gives what arrives in it. Before the first sample has made its way, that
     /// first sample is what there is.
     pub fn sense(&mut self, truth: &Measurement) -> Measurement {
+        let number = truth.sample;
         let sample = self.disturbed(truth);
         let delay = (self.parameters.delay_periods as usize).min(Self::DELAY_MAX);
         if self.underway.len() > delay {
@@ -53,7 +57,7 @@ impl Sensors {
         }
         // Never full: at most `delay` ≤ DELAY_MAX samples remain.
         let _ = self.underway.push_back(sample);
-        self.underway.front().copied().unwrap_or(sample)
+        Measurement { sample: number, ..self.underway.front().copied().unwrap_or(sample) }
     }
 
     fn disturbed(&mut self, truth: &Measurement) -> Measurement {
@@ -61,6 +65,7 @@ impl Sensors {
         let resolution = parameters.angle_resolution;
         let encoder = |angle: f64| if resolution > 0.0 { (angle / resolution).round() * resolution } else { angle };
         Measurement {
+            sample: truth.sample,
             angles: PerJoint(truth.angles.0.map(encoder)),
             rates: self.noisy_joints(&truth.rates, parameters.rate_noise),
             feet: truth.feet.map(|foot| Wrench {

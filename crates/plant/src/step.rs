@@ -1,11 +1,14 @@
 //! One control period of the simulated robot.
 
-use dynamics::{ArticulatedBody, Tree, zmp};
+use dynamics::{ArticulatedBody, Tree};
 use model::{GRAVITY, Joint, JointVector, Mechanism, Motion, Side, Wrench};
-use nalgebra::{Isometry3, Vector2, Vector3};
+use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::contact::FootMotion;
-use crate::{Drive, GroundContact, Measurement, Parameters, RobotState, Sensors};
+use crate::loads::Loads;
+use crate::robot::TRUNK;
+use crate::sensor_fault::Arrival;
+use crate::{Disturbances, Drive, GroundContact, Measurement, Parameters, Push, RobotState, Sensors, with_mass_error};
 
 /// What the drives are to reach at the end of the period.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -21,65 +24,57 @@ pub struct Setpoint {
 /// The simulated robot with its ground, drives and sensors.
 #[derive(Clone, Debug)]
 pub struct Plant {
-    mechanism: Mechanism,
-    tree: Tree,
-    parameters: Parameters,
+    /// As built: with its errors of mass.
+    pub(crate) mechanism: Mechanism,
+    pub(crate) tree: Tree,
+    pub(crate) parameters: Parameters,
     period: f64,
+    /// Control periods since the start.
+    periods: u64,
     /// The robot itself.
     pub robot: RobotState,
+    /// What happens to it. More may be added at any time.
+    pub disturbances: Disturbances,
     contact: GroundContact,
     drive: Drive,
     sensors: Sensors,
+    arrival: Arrival,
     body: ArticulatedBody,
+    world_to_level: UnitQuaternion<f64>,
     /// Of the ground on each foot at the end of the last step, about the right sole's origin in world axes.
-    ground: [Wrench; 2],
+    pub(crate) ground: [Wrench; 2],
     motor_torques: JointVector,
-}
-
-/// What nobody on a real robot knows so well.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Truth {
-    /// Right and left sole: sole to world.
-    pub soles: [Isometry3<f64>; 2],
-    /// Vertical force on the right and on the left sole [N].
-    pub loads: [f64; 2],
-    /// Centre of mass in the world [m].
-    pub com: Vector3<f64>,
-    /// Where the whole ground reaction acts on the floor, in the world [m]; `None` in the air.
-    pub zmp: Option<Vector2<f64>>,
-    /// Angle of the trunk's long axis against the vertical [rad].
-    pub trunk_tilt: f64,
-}
-
-impl Truth {
-    /// Whether the robot lies or is past saving: trunk tilted over 60° or its centre of mass below 0.45 m.
-    pub fn has_fallen(&self) -> bool {
-        !(self.trunk_tilt < std::f64::consts::FRAC_PI_3 && self.com.z > 0.45)
-    }
 }
 
 impl Plant {
     /// A robot that stands on its right sole and moves as `start` says.
     ///
     /// * `period` – control period [s]
-    /// * `seed` – of the sensors' noise
+    /// * `seed` – of the sensors' noise and the errors of mass
     pub fn new(mechanism: &Mechanism, parameters: &Parameters, start: &Motion, period: f64, seed: u64) -> Self {
-        let tree = Tree::new(mechanism);
-        let sunk_in = tree.mass * GRAVITY / (4.0 * parameters.contact.stiffness);
+        let mechanism = with_mass_error(mechanism, parameters.mass_error, seed);
+        let tree = Tree::new(&mechanism);
+        let weight = (tree.mass + parameters.payload.mass) * GRAVITY;
+        let sunk_in = weight / (4.0 * parameters.contact.stiffness);
         let mut plant = Self {
             robot: RobotState::on_right_foot(start, -sunk_in),
-            contact: GroundContact::new(mechanism),
-            drive: Drive::new(mechanism, &parameters.servo),
+            disturbances: Disturbances::default(),
+            contact: GroundContact::new(&mechanism),
+            drive: Drive::new(&mechanism, &parameters.servo),
             sensors: Sensors::new(parameters.sensors, seed),
+            arrival: Arrival::default(),
             body: ArticulatedBody::default(),
+            world_to_level: parameters.slope.world_to_level(),
             ground: [Wrench::ZERO; 2],
             motor_torques: JointVector::ZERO,
-            mechanism: mechanism.clone(),
+            mechanism,
             parameters: parameters.clone(),
             period,
+            periods: 0,
             tree,
         };
-        plant.ground[Side::Right.index()].force.z = plant.tree.mass * GRAVITY;
+        plant.body.gravity = parameters.slope.gravity();
+        plant.ground[Side::Right.index()].force = parameters.slope.up() * weight;
         plant
     }
 
@@ -89,13 +84,29 @@ impl Plant {
         let step = self.period / f64::from(count);
         for index in 1..=count {
             let lead = f64::from(count - index) * step;
-            self.integrate(setpoint, lead, step);
+            let number = self.periods * u64::from(count) + u64::from(index);
+            self.integrate(setpoint, lead, step, [number - 1, number].map(|number| number as f64 * step));
         }
+        self.periods += 1;
         self.measure()
     }
 
-    /// One integration step, which ends `lead` seconds before the setpoint is due.
-    fn integrate(&mut self, setpoint: &Setpoint, lead: f64, step: f64) {
+    /// Since the start [s].
+    pub fn time(&self) -> f64 {
+        self.periods as f64 * self.period
+    }
+
+    /// Pushes the trunk from now on.
+    ///
+    /// * `impulse` – in world axes [N·s]
+    /// * `duration` – [s]
+    pub fn push(&mut self, impulse: Vector3<f64>, duration: f64) {
+        self.disturbances.pushes.push(Push { link: TRUNK, impulse, start: self.time(), duration });
+    }
+
+    /// One integration step `from` a time `to` another [s since the start], which ends `lead` seconds before the setpoint
+    /// is due.
+    fn integrate(&mut self, setpoint: &Setpoint, lead: f64, step: f64, [from, to]: [f64; 2]) {
         let robot = &self.robot;
         self.body.set_state(
             &self.tree,
@@ -106,18 +117,27 @@ impl Plant {
             &robot.rates,
         );
 
-        // What the ground and the drives do.
+        // What the ground, the payload, pushes and the drives do.
         let height = robot.sole_to_world.translation.z;
-        let [right, left] = &mut self.contact.feet;
-        let motion = Side::BOTH.map(|side| foot_motion(&self.body, side));
-        let loads = [
-            *right.press(&motion[0], height, &self.parameters.contact, step),
-            *left.press(&motion[1], height, &self.parameters.contact, step),
-        ];
+        let mut loads = Loads::default();
+        for side in Side::BOTH {
+            let motion = foot_motion(&self.body, side);
+            let foot = &mut self.contact.feet[side.index()];
+            loads.add(*foot.press(&motion, height, &self.parameters.contact, step));
+        }
+        if self.parameters.payload.mass > 0.0 {
+            loads.add(self.parameters.payload.load(&self.body));
+        }
+        for push in &self.disturbances.pushes {
+            let force = push.force_over(from, to);
+            if force != Vector3::zeros() {
+                loads.add_force(force, push.link, &self.mechanism, &self.body);
+            }
+        }
         let drive = self.drive.press(setpoint, lead, &robot.angles, &robot.rates, step);
 
         // What follows.
-        let accelerations = self.body.accelerations(&self.tree, &drive.torques, &drive.armature, &loads);
+        let accelerations = self.body.accelerations(&self.tree, &drive.torques, &drive.armature, loads.as_slice());
         self.ground = Side::BOTH.map(|side| {
             let foot = &self.contact.feet[side.index()];
             foot.acted(&self.body.link_acceleration(Mechanism::foot(side)))
@@ -126,7 +146,7 @@ impl Plant {
         self.robot.integrate(&accelerations, step);
     }
 
-    /// What the sensors tell at this instant.
+    /// What arrives of the sensors at this instant.
     pub fn measure(&mut self) -> Measurement {
         let kinematics = self.robot.kinematics(&self.tree);
         let base = self.robot.sole_to_world.translation.vector;
@@ -143,41 +163,18 @@ impl Plant {
         angles[Joint::FootRoll] = up.y.atan2(up.z);
         angles[Joint::FootPitch] = (-up.x).atan2(up.z);
 
-        let orientation = kinematics.link_to_world(Joint::WaistRoll).rotation;
-        let angular_rate = self.trunk_rate(&kinematics);
-        self.sensors.sense(&Measurement {
+        let trunk_to_world = kinematics.link_to_world(TRUNK).rotation;
+        let (angular_rate, _) = self.robot.link_velocity(&self.mechanism, &kinematics, TRUNK, kinematics.origin[TRUNK]);
+        let sensed = self.sensors.sense(&Measurement {
+            sample: self.periods,
             angles,
             rates: self.robot.rates,
             feet,
-            orientation,
-            angular_rate: orientation.inverse() * angular_rate,
+            orientation: self.world_to_level * trunk_to_world,
+            angular_rate: trunk_to_world.inverse() * angular_rate,
             currents: self.drive.currents(&self.motor_torques),
-        })
-    }
-
-    fn trunk_rate(&self, kinematics: &dynamics::Kinematics) -> Vector3<f64> {
-        let mut rate = self.robot.angular_rate;
-        let mut link = Some(Joint::WaistRoll);
-        while let Some(joint) = link.filter(|joint| joint.is_powered()) {
-            rate += kinematics.axis[joint] * self.robot.rates[joint];
-            link = self.mechanism.links[joint].parent;
-        }
-        rate
-    }
-
-    /// The truth at this instant.
-    pub fn truth(&self) -> Truth {
-        let kinematics = self.robot.kinematics(&self.tree);
-        let base = self.robot.sole_to_world.translation.vector;
-        let total = (self.ground[0] + self.ground[1]).about(Vector3::new(0.0, 0.0, -base.z));
-        let up = kinematics.link_to_world(Joint::WaistRoll).rotation * Vector3::z();
-        Truth {
-            soles: Side::BOTH.map(|side| kinematics.sole_to_world(&self.mechanism, side)),
-            loads: self.ground.map(|foot| foot.force.z),
-            com: kinematics.com(&self.tree),
-            zmp: zmp(&total).map(|point| point + base.xy()),
-            trunk_tilt: up.z.clamp(-1.0, 1.0).acos(),
-        }
+        });
+        self.arrival.receive(sensed, &self.disturbances.sensor_faults, self.period)
     }
 }
 

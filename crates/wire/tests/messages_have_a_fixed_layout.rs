@@ -33,9 +33,9 @@ fn setpoint() {
 
 #[test]
 fn measurement() {
-    assert_layout!(MeasurementMessage, 648, {
-        tick @ 0 + 8, time_ns @ 8 + 8, angles @ 16 + 160, rates @ 176 + 160, wrench_right @ 336 + 48,
-        wrench_left @ 384 + 48, imu_orientation @ 432 + 32, imu_rate @ 464 + 24, motor_current @ 488 + 160,
+    assert_layout!(MeasurementMessage, 656, {
+        tick @ 0 + 8, time_ns @ 8 + 8, sample @ 16 + 8, angles @ 24 + 160, rates @ 184 + 160, wrench_right @ 344 + 48,
+        wrench_left @ 392 + 48, imu_orientation @ 440 + 32, imu_rate @ 472 + 24, motor_current @ 496 + 160,
     });
 }
 

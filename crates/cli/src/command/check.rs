@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use dynamics::{Kinematics, Tree, zmp};
 use model::{JointVector, Mechanism, Side};
+use plant::Disturbances;
 use serde::Serialize;
 use synthesis::{Recording, StickFigure};
 
@@ -48,7 +49,7 @@ impl Check {
     }
 }
 
-/// Checks what else lies in the folder: other mechanisms, recordings, scripts, the paper's figures.
+/// Checks what else lies in the folder: other mechanisms, recordings, scripts, disturbances, the paper's figures.
 fn check_others(config: &ConfigOptions, errors: &mut Errors) {
     // A folder that cannot be read was noted already, once for each file that must be there.
     let Ok(entries) = fs::read_dir(&config.config) else { return };
@@ -58,6 +59,8 @@ fn check_others(config: &ConfigOptions, errors: &mut Errors) {
         let name = file.file_name().unwrap_or_default().to_string_lossy();
         if name.starts_with("mechanism") && name.ends_with(".toml") {
             errors.note(Mechanism::load(file));
+        } else if name.starts_with("disturbances") && name.ends_with(".toml") {
+            errors.note(Disturbances::load(file));
         } else if name.starts_with("recorded") && name.ends_with(".csv") {
             errors.note(Recording::load(file));
         } else if name.ends_with(".jsonl") {

@@ -1,5 +1,7 @@
 //! `halfstep plant`: the process that is the robot.
 
+use std::path::PathBuf;
+
 use plant::Setpoint;
 use wire::PlantEnd;
 
@@ -23,9 +25,12 @@ pub struct Plant {
     runs: LoopOptions,
     #[command(flatten)]
     part: PartOptions,
-    /// Seed of the sensors' noise
+    /// Seed of the sensors' noise and of the errors of mass
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
+    /// Pushes and sensor faults, as in config/disturbances_demo.toml
+    #[arg(long, value_name = "FILE")]
+    disturbances: Option<PathBuf>,
     /// End half a second after the robot has fallen
     #[arg(long)]
     end_when_fallen: bool,
@@ -38,10 +43,12 @@ impl Plant {
 
         let mut errors = Errors::default();
         let loaded = self.config.robot(&mut errors).zip(self.config.plant(&mut errors));
-        let (robot, parameters) = errors.finish(loaded)?;
+        let disturbances = ConfigOptions::disturbances(self.disturbances.as_deref(), &mut errors);
+        let ((robot, parameters), disturbances) = errors.finish(loaded.zip(disturbances))?;
         let start = robot.nominal.at(0.0);
         let period = PERIOD.as_secs_f64();
         let mut plant = plant::Plant::new(&robot.mechanism, &parameters, &start, period, self.seed);
+        plant.disturbances = disturbances;
 
         let PlantEnd { setpoints, mut measurements } =
             PlantEnd::connect(&self.instance.instance()?, robot.mechanism.fingerprint)?;

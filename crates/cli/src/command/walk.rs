@@ -34,9 +34,12 @@ pub struct Walk {
     /// Folder for log, summary and pictures; the next free one in runs/ if absent
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Seed of the sensors' noise
+    /// Seed of the sensors' noise and of the errors of mass
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
+    /// Pushes and sensor faults, as in config/disturbances_demo.toml
+    #[arg(long, value_name = "FILE")]
+    disturbances: Option<PathBuf>,
     /// Which robot, if others shall talk to it; a name of its own if absent
     #[arg(long, value_name = "NAME")]
     instance: Option<InstanceName>,
@@ -66,6 +69,7 @@ impl Walk {
         let robot = self.config.robot(&mut errors);
         self.config.controller(&mut errors);
         self.config.plant(&mut errors);
+        ConfigOptions::disturbances(self.disturbances.as_deref(), &mut errors);
         let steps = self.steps(&mut errors);
         let (robot, steps) = errors.finish(robot.zip(steps))?;
         let instance = match &self.instance {
@@ -135,8 +139,12 @@ impl Walk {
         let observer = ObserverEnd::connect(instance)?;
         let mut operator = Operator::new(operator, steps);
         operator.send()?;
-        let seed = ["--end-when-fallen".into(), "--seed".into(), self.seed.to_string().into()];
-        let plant = Process::start("plant", self.arguments(instance, folder).into_iter().chain(seed))?;
+        let mut of_plant = self.arguments(instance, folder);
+        of_plant.extend(["--end-when-fallen".into(), "--seed".into(), self.seed.to_string().into()]);
+        if let Some(file) = &self.disturbances {
+            of_plant.extend(["--disturbances".into(), file.into()]);
+        }
+        let plant = Process::start("plant", of_plant)?;
         Ok(Walking { controller, plant, operator, observer, _leftovers: leftovers })
     }
 

@@ -11,6 +11,7 @@ pub fn message(tick: u64, time_ns: u64, measured: &plant::Measurement) -> Measur
     MeasurementMessage::from(&wire::Measurement {
         tick,
         time_ns,
+        sample: measured.sample,
         angles: measured.angles,
         rates: measured.rates,
         wrench_right: measured.feet[0],
@@ -26,7 +27,7 @@ pub fn message(tick: u64, time_ns: u64, measured: &plant::Measurement) -> Measur
 pub fn for_controller(message: &MeasurementMessage) -> Measurement {
     let [w, i, j, k] = message.imu_orientation;
     Measurement {
-        tick: message.tick,
+        tick: message.sample,
         angles: PerJoint(message.angles),
         rates: PerJoint(message.rates),
         feet: [wrench(message.wrench_right), wrench(message.wrench_left)],
@@ -49,6 +50,7 @@ mod tests {
     #[test]
     fn what_the_plant_senses_reaches_the_controller() {
         let sensed = plant::Measurement {
+            sample: 6,
             angles: JointVector::unit(Joint::RightKnee),
             rates: JointVector::unit(Joint::LeftKnee),
             feet: [wrench([1.0, 2.0, 3.0, 4.0, 5.0, 6.0]), wrench([6.0, 5.0, 4.0, 3.0, 2.0, 1.0])],
@@ -57,7 +59,7 @@ mod tests {
             currents: JointVector::unit(Joint::WaistRoll),
         };
         let heard = for_controller(&message(7, 8, &sensed));
-        assert_eq!(heard.tick, 7);
+        assert_eq!(heard.tick, 6);
         assert_eq!((heard.angles, heard.rates, heard.feet), (sensed.angles, sensed.rates, sensed.feet));
         assert_eq!(heard.orientation, sensed.orientation.into_inner());
         assert_eq!(heard.angular_rate, sensed.angular_rate);

@@ -9,13 +9,15 @@ use super::{MessageFault, NOTHING_YET, Newest};
 /// A [`Measurement`] as it lies in shared memory. Joints are physical and in the paper's order: 3 to 8 are always the
 /// right leg.
 #[derive(Clone, Copy, Debug, PartialEq, ZeroCopySend)]
-#[type_name("halfstep.Measurement.v1")]
+#[type_name("halfstep.Measurement.v2")]
 #[repr(C)]
 pub struct MeasurementMessage {
     /// Periods since the plant started.
     pub tick: u64,
     /// When it was written, `CLOCK_MONOTONIC` [ns].
     pub time_ns: u64,
+    /// Which sample of the sensors it is, counted in the plant's periods: the same number again is no news.
+    pub sample: u64,
     /// [rad]; joints 1 and 2 hold the tilt of the support sole.
     pub angles: [f64; Joint::COUNT],
     /// [rad/s]
@@ -24,7 +26,7 @@ pub struct MeasurementMessage {
     pub wrench_right: [f64; 6],
     /// Of the ground on the left foot, likewise.
     pub wrench_left: [f64; 6],
-    /// Unit quaternion w x y z that takes trunk coordinates to world coordinates.
+    /// Unit quaternion w x y z that takes trunk coordinates to level ones, z the true vertical.
     pub imu_orientation: [f64; 4],
     /// Angular velocity of the trunk in trunk axes [rad/s].
     pub imu_rate: [f64; 3],
@@ -39,6 +41,8 @@ pub struct Measurement {
     pub tick: u64,
     /// When it was written, `CLOCK_MONOTONIC` [ns].
     pub time_ns: u64,
+    /// Which sample of the sensors it is, counted in the plant's periods: the same number again is no news.
+    pub sample: u64,
     /// [rad]; joints 1 and 2 hold the tilt of the support sole.
     pub angles: JointVector,
     /// [rad/s]
@@ -47,7 +51,7 @@ pub struct Measurement {
     pub wrench_right: Wrench,
     /// Of the ground on the left foot, likewise.
     pub wrench_left: Wrench,
-    /// Unit quaternion w x y z that takes trunk coordinates to world coordinates.
+    /// Unit quaternion w x y z that takes trunk coordinates to level ones, z the true vertical.
     pub imu_orientation: [f64; 4],
     /// Angular velocity of the trunk in trunk axes [rad/s].
     pub imu_rate: [f64; 3],
@@ -72,6 +76,7 @@ impl MeasurementMessage {
         Ok(Measurement {
             tick: self.tick,
             time_ns: self.time_ns,
+            sample: self.sample,
             angles: check.joints("angle", &self.angles)?,
             rates: check.joints("rate", &self.rates)?,
             wrench_right: check.wrench("wrench_right", &self.wrench_right)?,
@@ -88,6 +93,7 @@ impl From<&Measurement> for MeasurementMessage {
         Self {
             tick: measurement.tick,
             time_ns: measurement.time_ns,
+            sample: measurement.sample,
             angles: measurement.angles.0,
             rates: measurement.rates.0,
             wrench_right: flat(&measurement.wrench_right),
@@ -107,6 +113,7 @@ impl Newest for MeasurementMessage {
     const NOTHING: Self = Self {
         tick: NOTHING_YET,
         time_ns: 0,
+        sample: 0,
         angles: [0.0; Joint::COUNT],
         rates: [0.0; Joint::COUNT],
         wrench_right: [0.0; 6],

@@ -50,6 +50,7 @@ pub fn measurement(tick: u64) -> MeasurementMessage {
     MeasurementMessage {
         tick,
         time_ns: 10 * tick,
+        sample: tick,
         angles: [value; Joint::COUNT],
         rates: [-value; Joint::COUNT],
         wrench_right: [value; 6],

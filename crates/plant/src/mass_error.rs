@@ -1,0 +1,64 @@
+//! Masses that nobody knows exactly.
+
+use model::{Body, Mechanism};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// Apart from the sensors' stream: a mass error leaves their noise as it is.
+const STREAM: u64 = 1;
+
+/// The mechanism with every link's mass, and apart from it its inertia, wrong by a share drawn evenly from ±`error`, each
+/// link by itself. The same seed draws the same; no error changes nothing.
+pub fn with_mass_error(mechanism: &Mechanism, error: f64, seed: u64) -> Mechanism {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    random.set_stream(STREAM);
+    let mut factor = || 1.0 + error * random.random_range(-1.0..=1.0);
+    let mut mechanism = mechanism.clone();
+    for link in &mut mechanism.links.0 {
+        let Body { mass, com, inertia } = link.body;
+        link.body = Body { mass: mass * factor(), com, inertia: inertia * factor() };
+    }
+    mechanism
+}
+
+#[cfg(test)]
+mod tests {
+    use model::Joint;
+
+    use super::*;
+
+    fn mechanism() -> Mechanism {
+        Mechanism::load(format!("{}/../../config/mechanism.toml", env!("CARGO_MANIFEST_DIR")))
+            .expect("the committed file")
+    }
+
+    #[test]
+    fn the_seed_decides_and_zero_is_exact() {
+        let mechanism = mechanism();
+        assert_eq!(with_mass_error(&mechanism, 0.0, 3), mechanism);
+        assert_eq!(with_mass_error(&mechanism, 0.05, 3), with_mass_error(&mechanism, 0.05, 3));
+        assert_ne!(with_mass_error(&mechanism, 0.05, 3), with_mass_error(&mechanism, 0.05, 4));
+    }
+
+    /// Shares stay within the error, fill it, are one for all three moments of a link, and right is not left.
+    #[test]
+    fn each_link_errs_by_itself() {
+        let mechanism = mechanism();
+        let mut shares = Vec::new();
+        for seed in 0..50 {
+            let wrong = with_mass_error(&mechanism, 0.05, seed);
+            for (link, truth) in wrong.links.0.iter().zip(&mechanism.links.0).filter(|(_, truth)| truth.body.mass > 0.0)
+            {
+                shares.push(link.body.mass / truth.body.mass - 1.0);
+                let ratio = link.body.inertia.component_div(&truth.body.inertia);
+                assert!((ratio - nalgebra::Vector3::repeat(ratio.x)).norm() < 1e-12);
+                shares.push(ratio.x - 1.0);
+            }
+            assert_ne!(wrong.links[Joint::RightKnee].body.mass, wrong.links[Joint::LeftHipPitch].body.mass);
+        }
+        let (least, most) = shares.iter().fold((0.0_f64, 0.0_f64), |(min, max), s| (min.min(*s), max.max(*s)));
+        assert!((-0.05 - 1e-12..-0.045).contains(&least) && (0.045..0.05 + 1e-12).contains(&most), "{least} {most}");
+        let mean = shares.iter().sum::<f64>() / shares.len() as f64;
+        assert!(mean.abs() < 0.004, "1200 shares have the mean {mean}");
+    }
+}
