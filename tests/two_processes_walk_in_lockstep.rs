@@ -43,7 +43,8 @@ fn every_picture_is_drawn() {
     let ended = command_line.run("walk --lockstep --for 3s");
     assert_eq!(ended.code, Some(0), "{}", ended.stderr);
     assert!(ended.stdout.contains("runs/0001"), "it says where they are: {}", ended.stdout);
-    for picture in ["footprints", "zmp_over_time", "zmp_in_sole", "stick_walk"] {
+    let over_time = ["balance_over_time", "margin_over_time", "compensation_over_time", "zmp_over_time"];
+    for picture in over_time.into_iter().chain(["footprints", "zmp_in_sole", "stick_walk"]) {
         let text = command_line.read(&format!("runs/0001/{picture}.svg"));
         assert!(text.starts_with("<svg") && text.trim_end().ends_with("</svg>"), "{picture}.svg");
     }

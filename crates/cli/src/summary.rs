@@ -5,7 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::inbox::Tally;
-use crate::run_log::Measures;
+use crate::run_log::{Fall, Measures};
 
 /// What the controller's process has to say at its end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -89,7 +89,7 @@ impl fmt::Display for Tally {
 
 impl fmt::Display for WalkSummary {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        let Measures { half_steps, distance_m, heading_deg, min_margin_mm, falls } = self.measures;
+        let Measures { half_steps, distance_m, heading_deg, min_margin_mm, falls, fall } = self.measures;
         let margin = min_margin_mm.map_or("unknown".to_owned(), |margin| format!("{margin:.0} mm"));
         let falls = match falls {
             0 => "no fall".to_owned(),
@@ -101,6 +101,15 @@ impl fmt::Display for WalkSummary {
             "{half_steps} half-steps in {:.1} s: {distance_m:.2} m, turned {heading_deg:+.1}°, least margin {margin}, {falls}",
             self.duration_s
         )?;
+        if let Some(Fall { time_s, unavoidable_s, half_step }) = fall {
+            write!(out, "it fell at {time_s:.2} s in half-step {half_step}")?;
+            match unavoidable_s {
+                Some(since) => {
+                    writeln!(out, ", unavoidably from {since:.2} s on: the capture point had left the soles")?
+                }
+                None => writeln!(out, " with its capture point over the soles")?,
+            }
+        }
         writeln!(out, "{}", self.requests)?;
         write!(out, "{:.1} × real time, {} deadlines missed", self.real_time_factor, self.deadline_misses)
     }

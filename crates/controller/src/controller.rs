@@ -11,7 +11,8 @@ use model::{Mechanism, Motion, Side};
 use crate::mode::Holding;
 use crate::watch::Watch;
 use crate::{
-    Answer, Fault, Faults, Guard, Intent, Measurement, Mode, Parameters, Pattern, Refusal, Setpoint, TickReport,
+    AddedAngles, Answer, Fault, Faults, Guard, Intent, Measurement, Mode, Parameters, Pattern, Refusal, Setpoint,
+    TickReport,
 };
 
 /// The state of the controller. Everything is made in [`Controller::new`]; a tick allocates nothing.
@@ -94,7 +95,10 @@ impl Controller {
         self.feedback.update(&self.plan.centre_of_mass, known.as_ref(), self.plan.zmp, on_both_feet, dt);
 
         // What does the walk ask for?
+        let support = self.pattern.half_step().support;
         let asked = self.advance(dt);
+        // What was sensed before a swap is told from the other foot than the rest of the report.
+        let is_same_foot = self.pattern.half_step().support == support;
         if self.pattern.is_out_of_reach() {
             faults.insert(Fault::OutOfReach);
         }
@@ -108,10 +112,13 @@ impl Controller {
             half_step: self.pattern.half_step(),
             command: self.pattern.command(),
             speed: self.pattern.speed(),
-            zmp_in_support: self.ground.zmp,
+            zmp_in_support: self.ground.zmp.filter(|_| is_same_foot),
             zmp_planned: self.plan.zmp,
             margin: self.ground.margin,
             lean: self.feedback.lean,
+            added: self.added(&asked),
+            com_planned: self.plan.centre_of_mass,
+            com_sensed: centre_of_mass.filter(|_| is_same_foot),
             faults,
             answer,
         }
@@ -203,6 +210,18 @@ impl Controller {
                 self.guard.limit(&asked.mirrored(mirror), &mirror.apply(&self.plan.torques), dt, faults)
             }
         }
+    }
+
+    /// What the plan adds to the plain sum of the modifications. The walk is known at the newest knot, a little ahead of
+    /// now: just before a swap only as told from the other foot.
+    fn added(&self, asked: &Motion) -> Option<AddedAngles> {
+        let (walk, now) = match &self.pattern {
+            Pattern::Plain(walk) => (walk.as_ref(), walk.half_step()),
+            Pattern::Preview(preview) => (preview.walk(), preview.half_step()),
+        };
+        let is_known = self.mode != Mode::Fallen && self.holding.is_none() && walk.half_step().index == now.index;
+        let planned = asked.angles - self.feedback.offsets().angles;
+        is_known.then(|| AddedAngles::between(&self.mechanism, &walk.motion_at(now.progress).angles, &planned))
     }
 
     /// Answers a request: the walk admits what changes it, the mode says whether there is a walk to change.

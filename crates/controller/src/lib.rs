@@ -21,4 +21,4 @@ pub use measurement::Measurement;
 pub use mode::{Intent, Mode};
 pub use parameters::{Parameters, WatchParameters};
 pub use pattern::{Compensation, Pattern};
-pub use report::{Answer, Refusal, Setpoint, TickReport};
+pub use report::{AddedAngles, Answer, Refusal, Setpoint, TickReport};

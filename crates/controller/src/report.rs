@@ -1,7 +1,8 @@
 //! What a tick gives: the setpoint, and what there is to say about it.
 
+use balance::CentreOfMass;
 use gait::{Admission, HalfStep};
-use model::JointVector;
+use model::{Joint, JointVector, Mechanism};
 use nalgebra::Vector2;
 
 use crate::{Faults, Intent, Mode};
@@ -30,7 +31,8 @@ pub struct TickReport {
     pub command: gait::Command,
     /// The speed factor of this instant.
     pub speed: f64,
-    /// Measured ZMP in support coordinates [m], if the ground said where.
+    /// Measured ZMP in support coordinates [m], if the ground said where; `None`, too, in the tick of a swap, when it is
+    /// known only as seen from the other foot.
     pub zmp_in_support: Option<Vector2<f64>>,
     /// What the asked motion needs the ZMP to be, in support coordinates [m].
     pub zmp_planned: Vector2<f64>,
@@ -38,10 +40,41 @@ pub struct TickReport {
     pub margin: f64,
     /// Feedback angles at the bearing ankle, about x and y [rad].
     pub lean: Vector2<f64>,
+    /// What the plan adds before any feedback; `None` when the plain sum of the modifications is not known: while nothing
+    /// is planned, and for the last knot before a swap.
+    pub added: Option<AddedAngles>,
+    /// Of the asked motion, in support coordinates.
+    pub com_planned: CentreOfMass,
+    /// As sensed, in support coordinates; `None` as for the ZMP.
+    pub com_sensed: Option<CentreOfMass>,
     /// What is wrong.
     pub faults: Faults,
     /// The answer to the tick's request, if it had one.
     pub answer: Option<Answer>,
+}
+
+/// What the plan adds to the plain sum of the modifications: rotations of the body over a joint, about x and y of support
+/// coordinates [rad].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AddedAngles {
+    /// Of the whole body over the bearing ankle.
+    pub ankle: Vector2<f64>,
+    /// Of the trunk over the pelvis.
+    pub waist: Vector2<f64>,
+}
+
+impl AddedAngles {
+    /// What leads from one posture to the other; both in support coordinates, angles small.
+    pub fn between(mechanism: &Mechanism, plain: &JointVector, planned: &JointVector) -> Self {
+        let turned = |joints: [Joint; 2]| {
+            let turn = |joint| mechanism.links[joint].axis.xy() * (planned[joint] - plain[joint]);
+            joints.map(turn).iter().sum()
+        };
+        Self {
+            ankle: turned([Joint::RightAnkleRoll, Joint::RightAnklePitch]),
+            waist: turned([Joint::WaistPitch, Joint::WaistRoll]),
+        }
+    }
 }
 
 /// The answer to a request.
@@ -62,4 +95,28 @@ pub enum Refusal {
     Fallen,
     /// The plain sum of modifications has been stopped; it cannot begin again from a stand.
     Standing,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn added_angles_are_told_about_axes_whichever_joint_has_them() {
+        // In the other reading of the paper joint 3 pitches and joint 4 rolls.
+        for (file, roll, pitch) in [
+            ("mechanism.toml", Joint::RightAnkleRoll, Joint::RightAnklePitch),
+            ("mechanism_other_reading.toml", Joint::RightAnklePitch, Joint::RightAnkleRoll),
+        ] {
+            let mechanism = Mechanism::load(format!("{}/../../config/{file}", env!("CARGO_MANIFEST_DIR"))).unwrap();
+            let plain = JointVector::from_fn(|joint| 0.1 * f64::from(joint.number()));
+            let mut planned = plain;
+            planned[roll] += 0.25;
+            planned[pitch] -= 0.5;
+            planned[Joint::RightKnee] += 1.0;
+            let added = AddedAngles::between(&mechanism, &plain, &planned);
+            assert!((added.ankle - Vector2::new(0.25, -0.5)).norm() < 1e-12, "{file}: {added:?}");
+            assert_eq!(added.waist, Vector2::zeros(), "{file}");
+        }
+    }
 }

@@ -57,9 +57,11 @@ fn reply() {
 
 #[test]
 fn report() {
-    assert_layout!(ReportMessage, 136, {
+    assert_layout!(ReportMessage, 264, {
         tick @ 0 + 8, time_ns @ 8 + 8, mode @ 16 + 4, support @ 20 + 4, half_step @ 24 + 8, progress @ 32 + 8,
         speed @ 40 + 8, turn @ 48 + 8, extension @ 56 + 8, zmp_in_support @ 64 + 16, zmp_planned @ 80 + 16,
-        margin @ 96 + 8, lean @ 104 + 16, faults @ 120 + 4, missed @ 124 + 4, compute_ns @ 128 + 8,
+        margin @ 96 + 8, lean @ 104 + 16, added @ 120 + 32, com_in_support @ 152 + 24,
+        com_velocity_in_support @ 176 + 24, com_planned @ 200 + 24, com_velocity_planned @ 224 + 24, faults @ 248 + 4,
+        missed @ 252 + 4, compute_ns @ 256 + 8,
     });
 }

@@ -1,6 +1,6 @@
 //! What does not change while the robot walks: its body, its nominal, the gains that follow from both.
 
-use dynamics::Tree;
+use dynamics::{LegSolver, Tree};
 use gait::NominalTable;
 use model::{Mechanism, Mirror};
 
@@ -20,6 +20,8 @@ pub struct Biped {
     pub mechanism: Mechanism,
     /// The same as a tree.
     pub tree: Tree,
+    /// Its legs.
+    pub legs: LegSolver,
     /// Its symmetry.
     pub mirror: Mirror,
     /// What its pendulum leaves out of the nominal half-step.
@@ -41,6 +43,7 @@ impl Biped {
             correction: gains(KNOTS_FORESEEN),
             mechanism: mechanism.clone(),
             mirror: *mirror,
+            legs: LegSolver::new(mechanism),
             tree,
             sway,
         }

@@ -1,6 +1,6 @@
 //! Where the feet are put: soles in support coordinates, footprints in the walk's own frame.
 
-use dynamics::Kinematics;
+use dynamics::{Kinematics, atan2};
 use model::{Mechanism, Side};
 use nalgebra::{Isometry2, Isometry3, Rotation2, Translation3, UnitQuaternion, Vector2, Vector3};
 
@@ -27,7 +27,7 @@ impl SolePose {
     pub fn swinging(mechanism: &Mechanism, kinematics: &Kinematics) -> Self {
         let sole = kinematics.sole_to_world(mechanism, Side::Left);
         let ahead = sole.rotation * Vector3::x();
-        Self { position: sole.translation.vector, yaw: ahead.y.atan2(ahead.x) }
+        Self { position: sole.translation.vector, yaw: atan2(ahead.y, ahead.x) }
     }
 
     /// Where the bearing foot is as seen, and mirrored, from this one, once this one bears.

@@ -1,6 +1,6 @@
 //! Footwork: what the half-steps ask of the body at a knot, apart from where its centre of mass goes.
 
-use dynamics::{Kinematics, Leg};
+use dynamics::{Kinematics, Leg, atan2};
 use model::{JointVector, Side};
 use nalgebra::Vector2;
 
@@ -48,7 +48,7 @@ impl Footwork {
         Wanted {
             com: self.course.feet.footprint.point_to_support(com),
             hip_height: Kinematics::standing(&biped.tree, &nominal).origin[PELVIS].z - self.hips.lowered(progress),
-            pelvis_yaw: pelvis_ahead.y.atan2(pelvis_ahead.x),
+            pelvis_yaw: atan2(pelvis_ahead.y, pelvis_ahead.x),
             swinging: self.swing.at(progress, &SolePose::swinging(&biped.mechanism, &asked)),
             upper: nominal,
         }

@@ -1,6 +1,6 @@
 //! The posture that has the centre of mass and the feet where they are wanted, by leg inverse kinematics.
 
-use dynamics::{Kinematics, Leg, Unreachable, solve_leg};
+use dynamics::{Kinematics, Leg, Unreachable};
 use model::{Joint, JointVector, Side};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2, Vector3};
 
@@ -60,7 +60,7 @@ impl WholeBody {
     /// # Errors
     /// [`Unreachable`] when a leg is too short; the posture stays.
     pub fn reach(&mut self, biped: &Biped, wanted: &Wanted) -> Result<JointVector, Unreachable> {
-        let Biped { tree, mechanism, .. } = biped;
+        let Biped { tree, mechanism, legs, .. } = biped;
         let mut angles = self.angles + self.change;
         for joint in Joint::ALL.into_iter().filter(|joint| !joint.is_in_leg()) {
             angles[joint] = wanted.upper[joint];
@@ -74,8 +74,8 @@ impl WholeBody {
         let mut com = wanted.com;
         for _ in 0..ROUNDS {
             let pelvis = Isometry3::from_parts(Translation3::new(hip.x, hip.y, hip_height), heading);
-            solve_leg(tree, Leg(Side::Right), &pelvis, &mut angles)?;
-            solve_leg(tree, Leg(Side::Left), &foot, &mut angles)?;
+            legs.solve(tree, Leg(Side::Right), &pelvis, &Isometry3::identity(), &mut angles)?;
+            legs.solve(tree, Leg(Side::Left), &pelvis, &foot, &mut angles)?;
             com = Kinematics::standing(tree, &angles).com(tree).xy();
             let miss = wanted.com - com;
             if miss.amax() < NEAR {

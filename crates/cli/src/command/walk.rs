@@ -191,6 +191,9 @@ impl Walk {
         fs::write(&file, text + "\n").map_err(|error| Failure::new(format!("{}: {error}", file.display())))?;
         let pictures = [
             ("footprints.svg", picture::footprints(&log, &robot.mechanism)),
+            ("balance_over_time.svg", picture::balance_over_time(&log, &robot.mechanism)),
+            ("margin_over_time.svg", picture::margin_over_time(&log, &robot.mechanism)),
+            ("compensation_over_time.svg", picture::compensation_over_time(&log, &robot.mechanism)),
             ("zmp_over_time.svg", picture::zmp_over_time(&log, &robot.mechanism)),
             ("zmp_in_sole.svg", picture::zmp_in_sole(&log, &robot.mechanism)),
             ("stick_walk.svg", picture::stick_walk(&log, &robot.mechanism)),

@@ -1,5 +1,7 @@
 //! Rows of the run's log, controller and plant → log.
 
+use controller::Mode;
+
 use crate::exchange::report::{faults, mode};
 use crate::record::{ControllerEntry, PlantEntry};
 use crate::run_log::{ControllerRow, PlantRow};
@@ -8,6 +10,7 @@ use crate::turns::PERIOD;
 /// What the controller has to tell of a tick, for the log.
 pub fn of_controller(entry: &ControllerEntry) -> ControllerRow {
     let ControllerEntry { tick, compute_ns, late, missed, ref report, .. } = *entry;
+    let is_planned = report.mode != Mode::Fallen;
     ControllerRow {
         time: time(tick),
         tick,
@@ -20,10 +23,13 @@ pub fn of_controller(entry: &ControllerEntry) -> ControllerRow {
         speed_command: report.command.speed,
         extension_command: report.command.extension,
         zmp_measured: report.zmp_in_support,
-        zmp_planned: Some(report.zmp_planned),
+        zmp_planned: Some(report.zmp_planned).filter(|_| is_planned),
         margin: Some(report.margin).filter(|margin| margin.is_finite()),
         lean_roll: report.lean.x,
         lean_pitch: report.lean.y,
+        added: report.added,
+        com_planned: Some(report.com_planned).filter(|_| is_planned),
+        com_measured: report.com_sensed,
         faults: faults(report.faults, late),
         compute_ns,
         missed,

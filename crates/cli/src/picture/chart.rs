@@ -54,12 +54,18 @@ const MARGIN_LEFT: f64 = 78.0;
 const MARGIN_RIGHT: f64 = 26.0;
 const MARGIN_TOP: f64 = 12.0;
 const MARGIN_BOTTOM: f64 = 52.0;
-/// Width for the legend at the right of a panel [px at scale 1].
-const LEGEND_WIDTH: f64 = 190.0;
-/// Between the ticks of a map, at least [px at scale 1].
-const TICK_DISTANCE_MIN: f64 = 60.0;
-/// Canvases beyond this width get larger letters, so that they can be read when the whole is looked at [px].
-const WIDTH_OF_SCALE_1: f64 = 1300.0;
+/// Between the ticks of a map, at least: along x, where labels stand side by side, and along y [px at scale 1].
+const TICK_DISTANCE_MIN: Point = [60.0, 34.0];
+/// Axes beyond this width get larger letters and wider lines, so that they can be read when the whole is looked at on a
+/// telephone [px].
+const WIDTH_OF_SCALE_1: f64 = 560.0;
+/// Room for a legend and a title [px].
+const MAP_WIDTH_MIN: f64 = 520.0;
+/// Columns of a legend.
+const LEGEND_COLUMNS: usize = 2;
+/// Of a legend's lines, and above and below them [px at scale 1].
+const LEGEND_LINE: f64 = 18.0;
+const LEGEND_SPACE: f64 = 30.0;
 
 impl Chart {
     /// An empty chart; the labels name quantity and unit.
@@ -145,6 +151,18 @@ impl Chart {
         (max[0] - min[0]).max(max[1] - min[1])
     }
 
+    /// Draws wider what has been drawn.
+    fn widen_lines(&mut self, factor: f64) {
+        for plot in &mut self.plots {
+            if let Plot::Line(line) = plot {
+                line.stroke_width *= factor;
+            }
+        }
+        for level in &mut self.levels {
+            level.stroke_width *= factor;
+        }
+    }
+
     fn layout(&mut self, x_range: (f64, f64), y_range: (f64, f64), letters: f64) -> Layout {
         let mut layout = Layout::new(x_range, y_range)
             .with_x_axis_min(x_range.0)
@@ -171,40 +189,33 @@ pub struct Panel {
     pub chart: Chart,
     /// From the lowest to the highest y.
     pub y_range: (f64, f64),
-    /// [px]
+    /// Of its axes [px].
     pub height: f64,
 }
 
-/// Panels below each other that share the x axis.
-pub fn stack(title: &str, width: f64, x_range: (f64, f64), panels: Vec<Panel>) -> String {
+/// Width of a [`stack`] [px]; with its letters it can still be read on a telephone.
+const STACK_WIDTH: f64 = 760.0;
+const STACK_LETTERS: f64 = 1.3;
+
+/// Panels below each other that share the x axis, with one legend for all at the bottom.
+pub fn stack(title: &str, x_range: (f64, f64), mut panels: Vec<Panel>) -> String {
+    let legend = Legend::of(panels.iter_mut().map(|panel| &mut panel.chart));
     let rows = panels.len();
-    let mut figure =
-        Figure::new(rows, 1).with_title(title).with_cell_size(width, 200.0).with_spacing(2.0).with_shared_x_all();
+    let mut figure = Figure::new(rows, 1).with_title(title).with_title_size((16.0 * STACK_LETTERS) as u32);
+    figure = figure.with_cell_size(STACK_WIDTH, 200.0).with_spacing(2.0).with_shared_x_all();
     let (mut plots, mut layouts) = (Vec::new(), Vec::new());
     for (row, Panel { mut chart, y_range, height }) in panels.into_iter().enumerate() {
-        figure = figure.with_row_height(row, height);
-        let legend = std::mem::take(&mut chart.legend);
-        let chart_has_x_label = !chart.x_label.is_empty();
+        let is_last = row + 1 == rows;
+        let below = if is_last { (MARGIN_BOTTOM + legend.height()) * STACK_LETTERS } else { 8.0 };
+        figure = figure.with_row_height(row, 6.0 + height + below);
         let layout = chart
-            .layout(x_range, y_range, 1.0)
-            .with_force_margins(MARGIN_LEFT, MARGIN_RIGHT + LEGEND_WIDTH)
-            .with_force_margins_y(6.0, if chart_has_x_label { MARGIN_BOTTOM } else { 8.0 })
-            .with_legend_entries(legend)
-            .with_legend_box(false)
-            .with_legend_position(LegendPosition::OutsideRightTop);
-        layouts.push(layout);
+            .layout(x_range, y_range, STACK_LETTERS)
+            .with_force_margins(MARGIN_LEFT * STACK_LETTERS, MARGIN_RIGHT)
+            .with_force_margins_y(6.0, below);
+        layouts.push(if is_last { legend.clone().below(layout) } else { layout });
         plots.push(chart.plots);
     }
     svg(&figure.with_plots(plots).with_layouts(layouts).render())
-}
-
-/// How the maps of a [`maps`] picture are placed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Placed {
-    /// Next to each other.
-    Across,
-    /// Below each other.
-    Down,
 }
 
 /// A chart of a [`maps`] picture.
@@ -224,35 +235,23 @@ impl Map {
     }
 }
 
-/// Charts to scale. Legends stand at the right.
-pub fn maps(title: &str, placed: Placed, maps: Vec<Map>) -> String {
+/// Charts to scale, below each other, with one legend for all at the bottom.
+pub fn maps(title: &str, mut maps: Vec<Map>) -> String {
     let inner: Vec<Point> =
         maps.iter().map(|map| map.ranges().map(|[least, greatest]| (greatest - least) * map.scale)).collect();
-    let widest = inner.iter().map(|[width, _]| *width).fold(0.0, f64::max);
-    let letters = (widest / WIDTH_OF_SCALE_1).max(1.0);
-    let legend_height = |map: &Map| (map.chart.legend.len() as f64 * 20.0 + 16.0) * letters;
-    let tallest = inner.iter().zip(&maps).map(|(inner, map)| inner[1].max(legend_height(map))).fold(0.0, f64::max);
-    let any_legend = maps.iter().any(|map| !map.chart.legend.is_empty());
-
-    let (rows, columns) = match placed {
-        Placed::Across => (1, maps.len()),
-        Placed::Down => (maps.len(), 1),
-    };
-    let mut figure = Figure::new(rows, columns).with_title(title).with_title_size((18.0 * letters) as u32);
+    let width = inner.iter().map(|[width, _]| *width).fold(MAP_WIDTH_MIN, f64::max);
+    let letters = (width / WIDTH_OF_SCALE_1).max(1.0);
+    let legend = Legend::of(maps.iter_mut().map(|map| &mut map.chart));
+    let rows = maps.len();
+    let sides = [MARGIN_LEFT, MARGIN_RIGHT].map(|margin| margin * letters);
+    let mut figure = Figure::new(rows, 1).with_title(title).with_title_size((16.0 * letters) as u32);
+    figure = figure.with_col_width(0, width + sides[0] + sides[1]);
     let (mut plots, mut layouts) = (Vec::new(), Vec::new());
-    for (index, (mut map, [width, height])) in maps.into_iter().zip(inner).enumerate() {
-        let has_legend = !map.chart.legend.is_empty();
-        let (width, height, legend_beside) = match placed {
-            Placed::Across => (width, tallest, has_legend),
-            Placed::Down => (widest, height.max(legend_height(&map)), any_legend),
-        };
-        let right = MARGIN_RIGHT + if legend_beside { LEGEND_WIDTH } else { 0.0 };
-        let sides = [MARGIN_LEFT, right, MARGIN_TOP, MARGIN_BOTTOM].map(|margin| margin * letters);
-        let cell = [width + sides[0] + sides[1], height + sides[2] + sides[3]];
-        figure = match placed {
-            Placed::Across => figure.with_col_width(index, cell[0]).with_row_height(0, cell[1]),
-            Placed::Down => figure.with_row_height(index, cell[1]).with_col_width(0, cell[0]),
-        };
+    for (row, (mut map, [_, height])) in maps.into_iter().zip(inner).enumerate() {
+        let is_last = row + 1 == rows;
+        let legend_height = if is_last { legend.height() } else { 0.0 };
+        let [above, below] = [MARGIN_TOP * letters, (MARGIN_BOTTOM + legend_height) * letters];
+        figure = figure.with_row_height(row, height + above + below);
 
         // The axes take the room that the cell has; what was drawn is in its middle.
         let [x, y] = map.ranges();
@@ -260,24 +259,52 @@ pub fn maps(title: &str, placed: Placed, maps: Vec<Map>) -> String {
             let (middle, half) = ((least + greatest) / 2.0, pixels / map.scale / 2.0);
             (middle - half, middle + half)
         };
-        let step = round_step(TICK_DISTANCE_MIN * letters / map.scale);
-        let legend = std::mem::take(&mut map.chart.legend);
+        let [x_step, y_step] = TICK_DISTANCE_MIN.map(|least| round_step(least * letters / map.scale));
+        map.chart.widen_lines(letters);
         let layout = map
             .chart
             .layout(fill(x, width), fill(y, height), letters)
             .with_force_margins(sides[0], sides[1])
-            .with_force_margins_y(sides[2], sides[3])
-            .with_x_tick_step(step)
-            .with_y_tick_step(step)
+            .with_force_margins_y(above, below)
+            .with_x_tick_step(x_step)
+            .with_y_tick_step(y_step)
             .with_equal_aspect();
-        layouts.push(if has_legend {
-            layout.with_legend_entries(legend).with_legend_position(LegendPosition::OutsideRightTop)
-        } else {
-            layout
-        });
+        layouts.push(if is_last { legend.clone().below(layout) } else { layout });
         plots.push(map.chart.plots);
     }
     svg(&figure.with_plots(plots).with_layouts(layouts).render())
+}
+
+/// What the lines and areas of all charts of a picture mean; a label that several of them share is listed once.
+#[derive(Clone)]
+struct Legend(Vec<LegendEntry>);
+
+impl Legend {
+    fn of<'c>(charts: impl Iterator<Item = &'c mut Chart>) -> Self {
+        let mut entries: Vec<LegendEntry> = Vec::new();
+        for entry in charts.flat_map(|chart| std::mem::take(&mut chart.legend)) {
+            if entries.iter().all(|listed| listed.label != entry.label) {
+                entries.push(entry);
+            }
+        }
+        Self(entries)
+    }
+
+    /// Height below the axis' label [px at scale 1].
+    fn height(&self) -> f64 {
+        match self.0.len().div_ceil(LEGEND_COLUMNS) {
+            0 => 0.0,
+            lines => lines as f64 * LEGEND_LINE + LEGEND_SPACE,
+        }
+    }
+
+    fn below(self, layout: Layout) -> Layout {
+        if self.0.is_empty() {
+            return layout;
+        }
+        let layout = layout.with_legend_entries(self.0).with_legend_box(false).with_legend_col_limit(LEGEND_COLUMNS);
+        layout.with_legend_position(LegendPosition::OutsideBottomColumns)
+    }
 }
 
 fn svg(scene: &Scene) -> String {
@@ -309,7 +336,7 @@ mod tests {
             let sole = [[0.21, -0.04], [0.21, 0.04], [-0.07, 0.04], [-0.07, -0.04]];
             chart.polygon(&sole, Pen::solid("#000000", 1.0), 0.5);
             chart.line([[0.0, 0.0], far], Pen::solid("#000000", 1.0));
-            let corners = polygon(&maps("t", Placed::Down, vec![Map { chart, scale }]));
+            let corners = polygon(&maps("t", vec![Map { chart, scale }]));
             let side = |axis: usize| {
                 let of = |corner: &Point| corner[axis];
                 corners.iter().map(of).fold(f64::MIN, f64::max) - corners.iter().map(of).fold(f64::MAX, f64::min)

@@ -1,16 +1,19 @@
-//! The floor seen from above: where the feet stood, and where the ground reaction went (the style of the paper's
-//! figures, DESIGN §5.2).
+//! The floor seen from above: where the feet stood, where the ground reaction went (the style of the paper's figures, DESIGN
+//! §5.2), and the paths of the centre of mass and of the divergent component of motion.
 
 use model::Mechanism;
 
-use super::chart::{Chart, Map, Pen, Placed, Point, maps};
+use super::chart::{Chart, Map, Pen, Point, maps};
+use super::fall_marks::FallMarks;
 use super::sole_outline::{draw_arrow_head, draw_sole};
 use super::thinning::thinned;
-use super::{COM, LEFT, RIGHT, ZMP};
+use super::{COM, DIVERGENT, LEFT, RIGHT, ZMP};
 use crate::run_log::{PlantRow, RunLog};
 
 /// Between two points of a path [s]: less than 1 cm of the fastest walk.
 const BETWEEN: f64 = 0.01;
+/// Of a path; a long walk has fewer per second.
+const POINTS: f64 = 6000.0;
 /// A path that reaches no farther has no direction worth showing [m].
 const SPOT: f64 = 0.02;
 /// Largest canvas that a short walk is blown up to [px].
@@ -19,21 +22,28 @@ const CANVAS: f64 = 1500.0;
 const SCALE: std::ops::RangeInclusive<f64> = 110.0..=420.0;
 
 /// Footprints to scale in the world, with the path of the ground's zero-moment point in single support and the
-/// projection of the centre of mass.
+/// projections of centre of mass and divergent component. After a fall nothing is drawn: there the robot lies.
 pub fn footprints(log: &RunLog, mechanism: &Mechanism) -> String {
     let time = |row: &PlantRow| row.time;
-    let (mut chart, com, zmp) = (Chart::new("x [m]", "y [m]"), Pen::solid(COM, 0.8), Pen::solid(ZMP, 0.9));
+    let (mut chart, com, zmp) = (Chart::new("x [m]", "y [m]"), Pen::solid(COM, 1.1), Pen::solid(ZMP, 0.9));
     let prints = log.footprints(mechanism);
     for print in &prints {
         draw_sole(&mut chart, mechanism, print.side, &print.sole_to_world);
     }
-    chart.line(thinned(&log.plant, BETWEEN, time).map(|row| [row.com_in_world.x, row.com_in_world.y]), com);
+    let upright = log.plant.iter().position(|row| row.fallen).map_or(&log.plant[..], |fell| &log.plant[..=fell]);
+    let divergent: Vec<(f64, Point)> =
+        (0..upright.len()).filter_map(|row| Some((upright[row].time, log.divergent_component(row)?.into()))).collect();
+    let duration = upright.first().zip(upright.last()).map_or(0.0, |(first, last)| last.time - first.time);
+    let between = BETWEEN.max(duration / POINTS);
+    let ahead = Pen::solid(DIVERGENT, 0.9);
+    chart.line(thinned(&divergent, between, |(time, _)| *time).map(|(_, point)| *point), ahead);
+    chart.line(thinned(upright, between, time).map(|row| [row.com_in_world.x, row.com_in_world.y]), com);
 
     for half_step in log.half_steps() {
         let (first, last) = (&half_step[0], &half_step[half_step.len() - 1]);
-        let from = log.plant.partition_point(|row| row.time < first.time);
-        let to = log.plant.partition_point(|row| row.time <= last.time);
-        let path: Vec<Point> = thinned(&log.plant[from..to], BETWEEN, time)
+        let from = upright.partition_point(|row| row.time < first.time);
+        let to = upright.partition_point(|row| row.time <= last.time);
+        let path: Vec<Point> = thinned(&upright[from..to], between, time)
             .filter(|row| row.bears_alone(first.support))
             .filter_map(|row| row.zmp_in_world.map(|zmp| [zmp.x, zmp.y]))
             .collect();
@@ -44,16 +54,19 @@ pub fn footprints(log: &RunLog, mechanism: &Mechanism) -> String {
     chart.key_area("left sole", LEFT);
     chart.key_line("ZMP, single support", zmp);
     chart.key_line("centre of mass", com);
+    chart.key_line("divergent component", ahead);
+    let fall = FallMarks::of(log, mechanism);
+    fall.draw_on_floor(&mut chart, log);
+    fall.key_on_floor(&mut chart);
+    chart.x_label = fall.axis_label("x [m]");
     let measures = log.measures(mechanism);
-    let mut title = format!(
+    let title = format!(
         "Footprints: {} half-steps, {:.1} m, heading {:+.0}°",
         measures.half_steps, measures.distance_m, measures.heading_deg
     );
-    if let Some(fall) = log.falls().next() {
-        title += &format!("; it fell at {fall:.1} s");
-    }
+    let title = title + &fall.title();
     let scale = (CANVAS / chart.span().max(0.1)).clamp(*SCALE.start(), *SCALE.end());
-    maps(&title, Placed::Down, vec![Map { chart, scale }])
+    maps(&title, vec![Map { chart, scale }])
 }
 
 /// A path with an arrow head at its end, unless it is but a spot.

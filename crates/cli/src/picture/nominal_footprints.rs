@@ -4,7 +4,7 @@ use dynamics::{Kinematics, NewtonEuler, Tree, zmp};
 use gait::NominalTable;
 use model::{Mechanism, Side};
 
-use super::chart::{Chart, Map, Pen, Placed, Point, maps};
+use super::chart::{Chart, Map, Pen, Point, maps};
 use super::sole_outline::{draw_arrow_head, draw_sole};
 use super::sticks::circle;
 use super::{COM, LEFT, RIGHT, ZMP};
@@ -51,7 +51,7 @@ pub fn nominal_footprints(table: &NominalTable, mechanism: &Mechanism) -> String
     chart.key_line("ZMP, inside the ring", pen);
     chart.key_line("centre of mass", com);
     let title = format!("Nominal half-step: |ZMP − O| ≤ {:.4} mm", residual * 1e3);
-    maps(&title, Placed::Down, vec![Map { chart, scale: SCALE }])
+    maps(&title, vec![Map { chart, scale: SCALE }])
 }
 
 fn draw_path(chart: &mut Chart, path: Vec<Point>, pen: Pen, arrow: f64) {

@@ -5,7 +5,7 @@ use gait::NominalTable;
 use model::Mechanism;
 
 use super::EDGE;
-use super::chart::{Chart, Map, Pen, Placed, maps};
+use super::chart::{Chart, Map, Pen, maps};
 use super::sticks::{draw_stick_figure, key_sticks};
 
 /// How many figures are drawn.
@@ -30,5 +30,5 @@ pub fn nominal_stick(table: &NominalTable, mechanism: &Mechanism) -> String {
     key_sticks(&mut front_view);
     let every = table.duration / (FIGURES - 1) as f64;
     let title = format!("Nominal half-step of {} s, figures every {:.0} ms", table.duration, every * 1e3);
-    maps(&title, Placed::Across, [side_view, front_view].map(|chart| Map { chart, scale: SCALE }).into())
+    maps(&title, [side_view, front_view].map(|chart| Map { chart, scale: SCALE }).into())
 }

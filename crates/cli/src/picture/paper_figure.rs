@@ -4,7 +4,7 @@ use gait::{Command, TurnPhase, WalkError};
 use model::{Mechanism, Side};
 use nalgebra::{Isometry2, Isometry3, Point2, Vector2, Vector3};
 
-use super::chart::{Chart, Map, Pen, Placed, Point, maps};
+use super::chart::{Chart, Map, Pen, Point, maps};
 use super::sole_outline::{draw_arrow_head, draw_sole, sole_outline};
 use super::{COM, LEFT, PLANNED, RIGHT, ZMP};
 use crate::configuration::Robot;
@@ -58,7 +58,7 @@ pub fn paper_figure(figure: &Figure, robot: &Robot, reading: Reading) -> Result<
     chart.key_line("ZMP", zmp);
     chart.key_line("centre of mass", com);
     let title = format!("Figure {}: {}", scenario.figure, summary(figure));
-    Ok(maps(&title, Placed::Down, vec![Map { chart, scale: SCALE }]))
+    Ok(maps(&title, vec![Map { chart, scale: SCALE }]))
 }
 
 /// The prints of `count` half-steps with sides, in world coordinates: the one left first, then the bearing ones, then the

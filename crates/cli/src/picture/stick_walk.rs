@@ -5,14 +5,11 @@ use model::{Mechanism, Side};
 use nalgebra::{Vector2, Vector3};
 
 use super::EDGE;
-use super::chart::{Chart, Map, Pen, Placed, maps};
+use super::chart::{Chart, Map, Pen, maps};
 use super::sticks::{draw_stick_figure, key_sticks};
+use super::stretch::{rows_between, stretch};
 use crate::run_log::{PlantRow, RunLog};
 
-/// How much of the walk is shown [s]; more would not be told apart.
-const STRETCH: f64 = 4.0;
-/// After a fall, what is shown of the lying robot [s].
-const AFTER_FALL: f64 = 0.4;
 /// Between two figures of the side view, and of the front view [s].
 const INTERVALS: [f64; 2] = [0.2, 0.4];
 /// Between two figures of the front view [m].
@@ -35,7 +32,7 @@ struct Posture {
 /// Figures over some seconds in the middle of the walk, or before its first fall. The view goes along with the walk: a
 /// turning walk is unrolled along its line through the middle between the feet, and seen across it.
 pub fn stick_walk(log: &RunLog, mechanism: &Mechanism) -> String {
-    let rows = stretch(log);
+    let rows = rows_between(log, stretch(log));
     let postures = postures(rows, mechanism);
 
     let mut side_view = Chart::new("along the walk [m]", "z [m]");
@@ -69,23 +66,11 @@ pub fn stick_walk(log: &RunLog, mechanism: &Mechanism) -> String {
         title += &format!("; it fell at {fall:.1} s");
     }
     let charts = [(side_view, SCALES[0]), (front_view, SCALES[1])];
-    maps(&title, Placed::Down, charts.map(|(chart, scale)| Map { chart, scale }).into())
+    maps(&title, charts.map(|(chart, scale)| Map { chart, scale }).into())
 }
 
 fn floor(chart: &mut Chart) {
     chart.level(0.0, Pen::solid(EDGE, 1.0));
-}
-
-/// The rows to show.
-fn stretch(log: &RunLog) -> &[PlantRow] {
-    let (Some(first), Some(last)) = (log.plant.first(), log.plant.last()) else { return &[] };
-    let end = match log.falls().next() {
-        Some(fall) => fall + AFTER_FALL,
-        None => (first.time + last.time + STRETCH) / 2.0,
-    };
-    let from = log.plant.partition_point(|row| row.time < end - STRETCH);
-    let to = log.plant.partition_point(|row| row.time <= end);
-    &log.plant[from..to]
 }
 
 /// Figures at equal intervals of time.

@@ -4,7 +4,7 @@ use dynamics::Tree;
 use model::{Mechanism, Side};
 use nalgebra::{Isometry3, Point3};
 
-use super::chart::{Chart, Map, Pen, Placed, Point, maps};
+use super::chart::{Chart, Map, Pen, Point, maps};
 use super::sole_outline::draw_sole;
 use super::thinning::thinned;
 use super::{LEFT, PLANNED, RIGHT, ZMP};
@@ -12,8 +12,8 @@ use crate::run_log::RunLog;
 
 /// Between two points of a path [s].
 const BETWEEN: f64 = 0.004;
-/// Progress in which a plan concerns one sole alone: around the swap the planned point goes from foot to foot.
-const WELL_WITHIN: std::ops::Range<f64> = 0.05..0.95;
+/// Of all paths together; a long walk has fewer per second.
+const POINTS: f64 = 20_000.0;
 /// [px/m]
 const SCALE: f64 = 3200.0;
 const GROUND_PEN: Pen = Pen::solid(ZMP, 0.5);
@@ -32,7 +32,7 @@ pub fn zmp_in_sole(log: &RunLog, mechanism: &Mechanism) -> String {
     left.key_line("ZMP of the ground", GROUND_PEN);
     left.key_line("ZMP planned, off the swaps", PLANNED_PEN);
     let title = "Zero-moment point in the sole that bears alone, all half-steps";
-    maps(title, Placed::Down, [left, right].map(|chart| Map { chart, scale: SCALE }).into())
+    maps(title, [left, right].map(|chart| Map { chart, scale: SCALE }).into())
 }
 
 fn chart(log: &RunLog, mechanism: &Mechanism, side: Side) -> Chart {
@@ -41,11 +41,14 @@ fn chart(log: &RunLog, mechanism: &Mechanism, side: Side) -> Chart {
     draw_sole(&mut chart, mechanism, side, &Isometry3::identity());
     // On the left foot, support coordinates are mirrored.
     let sign = if side == Side::Left { -1.0 } else { 1.0 };
+    let duration =
+        log.controller.first().zip(log.controller.last()).map_or(0.0, |(first, last)| last.time - first.time);
+    let between = BETWEEN.max(duration / POINTS);
     for half_step in log.half_steps().filter(|half_step| half_step[0].support == side) {
         let (mut planned, mut ground): (Vec<Point>, Vec<Point>) = Default::default();
-        for row in thinned(half_step, BETWEEN, |row| row.time) {
+        for row in thinned(half_step, between, |row| row.time) {
             let Some(plant) = log.plant_at(row.time).filter(|plant| plant.bears_alone(side)) else { continue };
-            if WELL_WITHIN.contains(&row.progress) {
+            if row.is_off_swaps() {
                 planned.extend(row.zmp_planned.map(|zmp| [zmp.x, sign * zmp.y]));
             }
             let to_sole = plant.footprint(mechanism, &tree, side).sole_to_world.inverse();

@@ -71,6 +71,49 @@ pub mod maybe_point {
     }
 }
 
+/// Position and velocity, x, y and z each, all empty when there is no such point.
+pub mod centre_of_mass {
+    use balance::CentreOfMass;
+    use nalgebra::Vector3;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(com: &Option<CentreOfMass>, serializer: S) -> Result<S::Ok, S::Error> {
+        let numbers = com.map(|CentreOfMass { position: p, velocity: v }| [p.x, p.y, p.z, v.x, v.y, v.z]);
+        numbers.map_or([None; 6], |numbers| numbers.map(Some)).serialize(serializer)
+    }
+
+    pub fn deserialize<'d, D: Deserializer<'d>>(deserializer: D) -> Result<Option<CentreOfMass>, D::Error> {
+        Ok(match <[Option<f64>; 6]>::deserialize(deserializer)? {
+            [Some(x), Some(y), Some(z), Some(vx), Some(vy), Some(vz)] => {
+                Some(CentreOfMass { position: Vector3::new(x, y, z), velocity: Vector3::new(vx, vy, vz) })
+            }
+            _ => None,
+        })
+    }
+}
+
+/// Degrees in the file: ankle about x and y, waist about x and y; all empty when nothing is known.
+pub mod added_angles {
+    use controller::AddedAngles;
+    use nalgebra::Vector2;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(added: &Option<AddedAngles>, serializer: S) -> Result<S::Ok, S::Error> {
+        let angles = added.map(|AddedAngles { ankle, waist }| [ankle.x, ankle.y, waist.x, waist.y]);
+        angles.map_or([None; 4], |angles| angles.map(|angle| Some(angle.to_degrees()))).serialize(serializer)
+    }
+
+    pub fn deserialize<'d, D: Deserializer<'d>>(deserializer: D) -> Result<Option<AddedAngles>, D::Error> {
+        let angles = <[Option<f64>; 4]>::deserialize(deserializer)?.map(|angle| angle.map(f64::to_radians));
+        Ok(match angles {
+            [Some(ankle_x), Some(ankle_y), Some(waist_x), Some(waist_y)] => {
+                Some(AddedAngles { ankle: Vector2::new(ankle_x, ankle_y), waist: Vector2::new(waist_x, waist_y) })
+            }
+            _ => None,
+        })
+    }
+}
+
 /// Radians inside, degrees in the file.
 pub mod degrees {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};

@@ -132,6 +132,10 @@ mod tests {
     use std::f64::consts::PI;
     use std::fs;
 
+    use balance::CentreOfMass;
+    use controller::AddedAngles;
+    use nalgebra::Vector3;
+
     use super::super::{ControllerRow, PlantRow, RunLog, synthetic};
     use super::*;
 
@@ -166,6 +170,11 @@ mod tests {
         log.controller[2].faults = 5;
         // Degrees in the file: exact for angles that are.
         log.controller[2].turn_command = 15_f64.to_radians();
+        let com = CentreOfMass { position: Vector3::new(0.1, PI / 31.0, 0.9), velocity: Vector3::new(0.4, -0.2, 1e-9) };
+        log.controller[1].com_planned = Some(com);
+        log.controller[2].com_measured = Some(CentreOfMass { position: com.velocity, velocity: com.position });
+        let [ankle, waist] = [[1.0_f64, -2.0], [15.0, 45.0]].map(|angles| angles.map(f64::to_radians).into());
+        log.controller[3].added = Some(AddedAngles { ankle, waist });
         let dir = written(&log);
         assert_eq!(RunLog::read(dir.path()).unwrap(), log);
     }

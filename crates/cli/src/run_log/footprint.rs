@@ -2,7 +2,7 @@
 
 use dynamics::{Kinematics, Tree};
 use model::{Mechanism, Side};
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Rotation2, Vector2};
 
 use super::{ControllerRow, PlantRow, RunLog};
 
@@ -20,6 +20,15 @@ impl Footprint {
     pub fn heading(&self) -> f64 {
         let forward = self.sole_to_world.rotation * nalgebra::Vector3::x();
         forward.y.atan2(forward.x)
+    }
+
+    /// Takes a point of the floor in support coordinates, which are mirrored on a left foot, to the world [m].
+    pub fn support_to_world(&self, point: Vector2<f64>) -> Vector2<f64> {
+        let left = match self.side {
+            Side::Right => point.y,
+            Side::Left => -point.y,
+        };
+        self.sole_to_world.translation.vector.xy() + Rotation2::new(self.heading()) * Vector2::new(point.x, left)
     }
 }
 
@@ -63,8 +72,21 @@ impl RunLog {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector3;
+
     use super::super::synthetic::{log, mechanism};
     use super::*;
+
+    #[test]
+    fn support_coordinates_are_mirrored_on_the_left_foot() {
+        let turned = Vector3::new(0.0, 0.0, std::f64::consts::FRAC_PI_2);
+        let sole_to_world = Isometry3::new(Vector3::new(2.0, 1.0, 0.02), turned);
+        // Ahead of a foot that points along the world's y is further along y; inward of a right foot is against x.
+        for (side, x) in [(Side::Right, 1.9), (Side::Left, 2.1)] {
+            let found = Footprint { side, sole_to_world }.support_to_world(Vector2::new(0.2, 0.1));
+            assert!((found - Vector2::new(x, 1.2)).norm() < 1e-12, "{side:?}: {found}");
+        }
+    }
 
     #[test]
     fn both_feet_stand_and_every_landing_leaves_a_print() {

@@ -6,7 +6,7 @@ use model::Mechanism;
 use nalgebra::Vector2;
 use serde::Serialize;
 
-use super::{Footprint, RunLog};
+use super::{Fall, Footprint, RunLog};
 
 /// A run in numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -23,6 +23,9 @@ pub struct Measures {
     pub min_margin_mm: Option<f64>,
     /// How often the robot fell.
     pub falls: usize,
+    /// The first fall; absent in JSON when there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fall: Option<Fall>,
 }
 
 impl RunLog {
@@ -37,6 +40,7 @@ impl RunLog {
             heading_deg: heading_change(&prints).to_degrees(),
             min_margin_mm: margins.min_by(f64::total_cmp).map(|margin| margin * 1e3),
             falls: self.falls().count(),
+            fall: self.first_fall(mechanism),
         }
     }
 

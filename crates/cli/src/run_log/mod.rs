@@ -5,15 +5,18 @@
 //! made again at any time.
 
 mod columns;
+mod fall;
 mod file;
 mod footprint;
 mod measures;
 mod rows;
+mod support;
 #[cfg(test)]
 pub(crate) mod synthetic;
 
 use std::path::Path;
 
+pub use fall::Fall;
 pub use file::{RowWriter, RunLogError, read_rows};
 pub use footprint::Footprint;
 pub use measures::Measures;

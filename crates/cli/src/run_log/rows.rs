@@ -1,5 +1,7 @@
 //! What is logged of the plant and of the controller at one tick.
 
+use balance::CentreOfMass;
+use controller::AddedAngles;
 use model::{Joint, JointVector, Side};
 use nalgebra::{Isometry3, Vector2, Vector3};
 use serde::de::DeserializeOwned;
@@ -7,8 +9,6 @@ use serde::{Deserialize, Serialize};
 
 use super::columns;
 
-/// Below this load a foot bears nothing that a zero-moment point could be told from [N].
-const LOAD_MIN: f64 = 50.0;
 /// A foot with a smaller share of the other's load only touches.
 const UNLOADED_SHARE: f64 = 0.02;
 
@@ -82,12 +82,21 @@ pub struct ControllerRow {
     pub zmp_planned: Option<Vector2<f64>>,
     /// Signed distance of the measured ZMP to the edge of what bears [m], negative outside; `None` without ground.
     pub margin: Option<f64>,
-    /// Compensation at the support ankle about x [rad]; degrees in the file.
+    /// Feedback at the support ankle about x [rad]; degrees in the file.
     #[serde(with = "columns::degrees")]
     pub lean_roll: f64,
-    /// Compensation at the support ankle about y [rad]; degrees in the file.
+    /// Feedback at the support ankle about y [rad]; degrees in the file.
     #[serde(with = "columns::degrees")]
     pub lean_pitch: f64,
+    /// What the plan adds to the plain sum of the modifications [rad], degrees in the file; `None` when it is not known.
+    #[serde(with = "columns::added_angles")]
+    pub added: Option<AddedAngles>,
+    /// Planned centre of mass in support coordinates; `None` when there is no plan.
+    #[serde(with = "columns::centre_of_mass")]
+    pub com_planned: Option<CentreOfMass>,
+    /// Sensed centre of mass, likewise; `None` when the feet carry too little, and in the tick of a swap.
+    #[serde(with = "columns::centre_of_mass")]
+    pub com_measured: Option<CentreOfMass>,
     /// One bit for each fault present.
     pub faults: u32,
     /// Computing time of the tick [ns].
@@ -96,11 +105,18 @@ pub struct ControllerRow {
     pub missed: u64,
 }
 
+impl ControllerRow {
+    /// Whether the plan concerns the bearing sole alone: around a swap the planned zero-moment point goes from foot to foot.
+    pub fn is_off_swaps(&self) -> bool {
+        (0.05..0.95).contains(&self.progress)
+    }
+}
+
 impl PlantRow {
     /// Whether the foot on `side` carries the robot, and the other one next to nothing.
     pub fn bears_alone(&self, side: Side) -> bool {
         let other = self.loads[side.other().index()];
-        self.loads[side.index()] > LOAD_MIN && other < UNLOADED_SHARE * self.loads[side.index()]
+        self.bears(side) && other < UNLOADED_SHARE * self.loads[side.index()]
     }
 }
 
@@ -125,7 +141,14 @@ impl Row for ControllerRow {
         let place = ["t_s", "tick", "mode", "support", "half_step", "progress"];
         let command = ["speed", "turn_command_deg", "speed_command", "extension_command_deg"];
         let balance = ["zmp_measured_x_m", "zmp_measured_y_m", "zmp_planned_x_m", "zmp_planned_y_m", "margin_m"];
-        let health = ["lean_roll_deg", "lean_pitch_deg", "faults", "compute_ns", "missed"];
-        place.into_iter().chain(command).chain(balance).chain(health).map(String::from).collect()
+        let lean = ["lean_roll_deg", "lean_pitch_deg"];
+        let added =
+            ["ankle_roll", "ankle_pitch", "waist_roll", "waist_pitch"].map(|angle| format!("added_{angle}_deg"));
+        let com = ["planned", "measured"].into_iter().flat_map(|which| {
+            ["x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s"].map(|component| format!("com_{which}_{component}"))
+        });
+        let health = ["faults", "compute_ns", "missed"].map(String::from);
+        let before = place.into_iter().chain(command).chain(balance).chain(lean).map(String::from);
+        before.chain(added).chain(com).chain(health).collect()
     }
 }

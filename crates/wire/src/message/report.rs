@@ -51,7 +51,7 @@ codes! {
 
 /// A [`Report`] as it lies in shared memory.
 #[derive(Clone, Copy, Debug, PartialEq, ZeroCopySend)]
-#[type_name("halfstep.Report.v1")]
+#[type_name("halfstep.Report.v2")]
 #[repr(C)]
 pub struct ReportMessage {
     /// Periods since the controller started.
@@ -80,6 +80,17 @@ pub struct ReportMessage {
     pub margin: f64,
     /// Feedback angles added at the support ankle: roll, pitch [rad].
     pub lean: [f64; 2],
+    /// What the plan adds to the plain sum of the modifications: support ankle roll and pitch, waist roll and pitch [rad];
+    /// NaN when it is not known.
+    pub added: [f64; 4],
+    /// Sensed centre of mass in the bearing foot's sole frame, made level [m]; NaN when it is not known.
+    pub com_in_support: [f64; 3],
+    /// Its velocity, likewise [m/s].
+    pub com_velocity_in_support: [f64; 3],
+    /// Planned centre of mass, likewise [m]; NaN when there is no plan.
+    pub com_planned: [f64; 3],
+    /// Its velocity, likewise [m/s].
+    pub com_velocity_planned: [f64; 3],
     /// Sum of the [`Fault`]s present.
     pub faults: u32,
     /// Deadlines missed since the start.
@@ -117,6 +128,17 @@ pub struct Report {
     pub margin: Option<f64>,
     /// Feedback angles added at the support ankle: roll, pitch [rad].
     pub lean: [f64; 2],
+    /// What the plan adds to the plain sum of the modifications: support ankle roll and pitch, waist roll and pitch [rad];
+    /// `None` when it is not known.
+    pub added: Option<[f64; 4]>,
+    /// Sensed centre of mass in the bearing foot's sole frame, made level [m].
+    pub com_in_support: Option<[f64; 3]>,
+    /// Its velocity, likewise [m/s].
+    pub com_velocity_in_support: Option<[f64; 3]>,
+    /// Planned centre of mass, likewise [m]; `None` when there is no plan.
+    pub com_planned: Option<[f64; 3]>,
+    /// Its velocity, likewise [m/s].
+    pub com_velocity_planned: Option<[f64; 3]>,
     /// Sum of the [`Fault`]s present, as [`Fault::sum`] makes it; bits that this version does not know may be set.
     pub faults: u32,
     /// Deadlines missed since the start.
@@ -149,9 +171,6 @@ impl ReportMessage {
                 return Err(MessageFault::UnknownCode { message: check.0, field, value, known });
             }
         };
-        let point = |field, values: &[f64; 2]| {
-            if values.iter().all(|value| value.is_nan()) { Ok(None) } else { check.numbers(field, values).map(Some) }
-        };
         Ok(Report {
             tick: self.tick,
             time_ns: self.time_ns,
@@ -162,15 +181,29 @@ impl ReportMessage {
             speed: check.number("speed", self.speed)?,
             turn: check.number("turn", self.turn)?,
             extension: check.number("extension", self.extension)?,
-            zmp_in_support: point("zmp_in_support", &self.zmp_in_support)?,
-            zmp_planned: point("zmp_planned", &self.zmp_planned)?,
+            zmp_in_support: known(&check, "zmp_in_support", &self.zmp_in_support)?,
+            zmp_planned: known(&check, "zmp_planned", &self.zmp_planned)?,
             margin: if self.margin.is_nan() { None } else { Some(check.number("margin", self.margin)?) },
             lean: check.numbers("lean", &self.lean)?,
+            added: known(&check, "added", &self.added)?,
+            com_in_support: known(&check, "com_in_support", &self.com_in_support)?,
+            com_velocity_in_support: known(&check, "com_velocity_in_support", &self.com_velocity_in_support)?,
+            com_planned: known(&check, "com_planned", &self.com_planned)?,
+            com_velocity_planned: known(&check, "com_velocity_planned", &self.com_velocity_planned)?,
             faults: self.faults,
             missed: self.missed,
             compute_ns: self.compute_ns,
         })
     }
+}
+
+/// Numbers that are all there, or none of them.
+fn known<const N: usize>(
+    check: &Check,
+    field: &'static str,
+    values: &[f64; N],
+) -> Result<Option<[f64; N]>, MessageFault> {
+    if values.iter().all(|value| value.is_nan()) { Ok(None) } else { check.numbers(field, values).map(Some) }
 }
 
 impl From<&Report> for ReportMessage {
@@ -192,6 +225,11 @@ impl From<&Report> for ReportMessage {
             zmp_planned: report.zmp_planned.unwrap_or([f64::NAN; 2]),
             margin: report.margin.unwrap_or(f64::NAN),
             lean: report.lean,
+            added: report.added.unwrap_or([f64::NAN; 4]),
+            com_in_support: report.com_in_support.unwrap_or([f64::NAN; 3]),
+            com_velocity_in_support: report.com_velocity_in_support.unwrap_or([f64::NAN; 3]),
+            com_planned: report.com_planned.unwrap_or([f64::NAN; 3]),
+            com_velocity_planned: report.com_velocity_planned.unwrap_or([f64::NAN; 3]),
             faults: report.faults,
             missed: report.missed,
             compute_ns: report.compute_ns,
@@ -219,11 +257,26 @@ mod tests {
             zmp_planned: Some([0.0, 0.0]),
             margin: Some(-0.01),
             lean: [0.0, 0.01],
+            added: Some([0.01, -0.02, 0.03, 0.04]),
+            com_in_support: Some([0.1, 0.09, 0.9]),
+            com_velocity_in_support: Some([0.4, -0.1, 0.01]),
+            com_planned: Some([0.11, 0.08, 0.91]),
+            com_velocity_planned: Some([0.41, -0.12, 0.02]),
             faults: Fault::sum([Fault::InTheAir, Fault::DeadlineMissed]),
             missed: 4,
             compute_ns: 5,
         };
-        let unknown = Report { zmp_in_support: None, zmp_planned: None, margin: None, ..known };
+        let unknown = Report {
+            zmp_in_support: None,
+            zmp_planned: None,
+            margin: None,
+            added: None,
+            com_in_support: None,
+            com_velocity_in_support: None,
+            com_planned: None,
+            com_velocity_planned: None,
+            ..known
+        };
         for report in [known, unknown] {
             assert_eq!(ReportMessage::from(&report).checked(), Ok(report));
         }
@@ -246,6 +299,11 @@ mod tests {
             zmp_planned: [0.0; 2],
             margin: 0.0,
             lean: [0.0; 2],
+            added: [0.0; 4],
+            com_in_support: [0.0; 3],
+            com_velocity_in_support: [0.0; 3],
+            com_planned: [0.0; 3],
+            com_velocity_planned: [0.0; 3],
             faults: 0,
             missed: 0,
             compute_ns: 0,
