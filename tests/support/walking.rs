@@ -29,6 +29,7 @@ pub fn plant_parameters() -> plant::Parameters {
 }
 
 /// A controller and a plant that walk together.
+#[derive(Clone)]
 pub struct Walking {
     /// The one.
     pub controller: Controller,

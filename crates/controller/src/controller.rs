@@ -7,6 +7,7 @@ use balance::{CentreOfMass, Feedback, Ground, Plan, Sensed, ZmpEstimator};
 use dynamics::{Kinematics, Tree};
 use gait::{Admission, NominalTable, Request, Start, Verdict, Walk, WalkError};
 use model::{Mechanism, Motion, Side};
+use nalgebra::Vector2;
 
 use crate::mode::Holding;
 use crate::watch::Watch;
@@ -14,6 +15,9 @@ use crate::{
     AddedAngles, Answer, Fault, Faults, Guard, Intent, Measurement, Mode, Parameters, Pattern, Refusal, Setpoint,
     TickReport,
 };
+
+/// With the measured ZMP so far inside a sole, all of it is on the ground [m].
+const FLAT_MARGIN: f64 = 0.005;
 
 /// The state of the controller. Everything is made in [`Controller::new`]; a tick allocates nothing.
 #[derive(Clone, Debug)]
@@ -48,14 +52,14 @@ impl Controller {
         let walk = Walk::new(table, mechanism, &parameters.gait, start)?;
         let tree = Tree::new(mechanism);
         let mut plan = Plan::new(mechanism, &tree, walk.mirror());
-        plan.update(&tree, walk.mirror(), &walk.motion(), false);
+        plan.update(&tree, walk.mirror(), &walk.motion(), Vector2::zeros(), false);
         let guard = Guard::new(mechanism, &walk.physical_motion().angles);
         let pattern = Pattern::new(mechanism, walk, parameters.compensation);
         Ok(Self {
             watch: Watch::new(mechanism, parameters.watch),
             kinematics: Kinematics::default(),
             zmp_estimator: ZmpEstimator::new(mechanism, parameters.balance.zmp),
-            ground: Ground { zmp: None, margin: f64::NEG_INFINITY, loads: [0.0; 2] },
+            ground: Ground { zmp: None, margin: f64::NEG_INFINITY, loads: [0.0; 2], bears: [false; 2] },
             feedback: Feedback::new(mechanism, parameters.balance.feedback),
             guard,
             mode: Mode::Walking,
@@ -152,6 +156,10 @@ impl Controller {
             self.feedback.release();
             return None;
         }
+        // A sole that bears alone, and not on an edge, lies flat: it leans as the floor does.
+        if self.ground.margin > FLAT_MARGIN && !self.ground.bears[1] {
+            self.pattern.sense_vertical(sensed.up_over_sole(&self.kinematics).xy(), dt);
+        }
         Some(CentreOfMass::sensed(&self.tree, &self.kinematics, &sensed))
     }
 
@@ -174,7 +182,7 @@ impl Controller {
             _ => Mode::Walking,
         };
         let on_both_feet = self.pattern.weight_on_bearing() < 1.0;
-        self.plan.update(&self.tree, self.pattern.mirror(), &motion, on_both_feet);
+        self.plan.update(&self.tree, self.pattern.mirror(), &motion, self.pattern.vertical(), on_both_feet);
         motion + *self.feedback.offsets()
     }
 
