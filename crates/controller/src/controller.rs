@@ -135,7 +135,7 @@ impl Controller {
             self.intend(Intent::Hold);
         }
         let (measurement, up_in_trunk) = good?;
-        if self.watch.has_fallen(&up_in_trunk) {
+        if self.watch.has_fallen() {
             faults.insert(Fault::Fallen);
             self.mode = Mode::Fallen;
         }
