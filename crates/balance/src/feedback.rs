@@ -1,5 +1,6 @@
 //! Feedback through the ankles: the error of the divergent component of motion moves the wanted ZMP, and small angles of
-//! the bearing ankle move the ZMP (the paper's own joints; the law is DESIGN §5.3's).
+//! the bearing ankle move the ZMP (the paper's own joints; the law is DESIGN §5.3's). The swinging ankle keeps its sole
+//! level while the body tilts, so that it does not land on an edge.
 
 use model::{GRAVITY, Joint, Mechanism, Mirror, Motion};
 use nalgebra::{Vector2, Vector3};
@@ -13,12 +14,16 @@ const ANKLES: [[Joint; 2]; 2] =
 /// Farthest that the ZMP is moved between both feet [m].
 const SHIFT_ON_BOTH_FEET: f64 = 0.03;
 
+/// Error of the divergent component at touchdown that is not stepped after, ahead and aside: the next ankle takes it out
+/// [m].
+const LEFT_TO_NEXT_ANKLE: Vector2<f64> = Vector2::new(0.05, 0.03);
+
 /// Rotation of the body over the bearing ankle, about x and y [rad].
 pub type AnkleLean = Vector2<f64>;
 
-/// Turns the error of the divergent component into ankle angles. The bearing ankle follows the wanted lean; what the
-/// other one still has from its own turn fades out. Both do so as critically damped second-order lags, so that angles and
-/// rates stay continuous whatever happens.
+/// Turns the error of the divergent component into ankle angles. The bearing ankle follows the wanted lean, the other one
+/// levels its sole; what it still has from its own turn fades out. Both do so as critically damped second-order lags, so
+/// that angles and rates stay continuous whatever happens.
 #[derive(Clone, Debug)]
 pub struct Feedback {
     parameters: FeedbackParameters,
@@ -28,6 +33,12 @@ pub struct Feedback {
     sole_centre: Vector2<f64>,
     /// Of the bearing ankle's joints.
     axes: [Vector3<f64>; 2],
+    /// Of the swinging ankle's.
+    swinging_axes: [Vector3<f64>; 2],
+    /// Of the divergent component, when last known [m].
+    error: Vector2<f64>,
+    /// How far the ZMP can be moved after it [m].
+    room: Vector2<f64>,
     /// Angles and rates of the offsets, in support coordinates.
     offsets: Motion,
     /// What the bearing ankle is asked for now.
@@ -43,6 +54,9 @@ impl Feedback {
             sole_half_size: Vector2::new((sole.ahead + sole.behind) / 2.0, sole.half_width),
             sole_centre: Vector2::new((sole.ahead - sole.behind) / 2.0, 0.0),
             axes: ANKLES[0].map(|joint| mechanism.links[joint].axis.into_inner()),
+            swinging_axes: ANKLES[1].map(|joint| mechanism.links[joint].axis.into_inner()),
+            error: Vector2::zeros(),
+            room: Vector2::zeros(),
             offsets: Motion::default(),
             lean: Vector2::zeros(),
             parameters,
@@ -52,21 +66,28 @@ impl Feedback {
     /// Absorbs where the centre of mass is against where it should be, and moves the offsets on.
     ///
     /// * `zmp_planned` – where the ground should push if all went as planned [m]
+    /// * `tilt` – how the robot is turned beyond the plan, about x and y [rad]; counts only with `sensed`
     /// * `on_both_feet` – whether the other foot bears, too, so that the point may leave the bearing sole
     /// * `dt` – time since the last update [s]
     pub fn update(
         &mut self,
         planned: &CentreOfMass,
         sensed: Option<&CentreOfMass>,
+        tilt: Vector2<f64>,
         zmp_planned: Vector2<f64>,
         on_both_feet: bool,
         dt: f64,
     ) {
+        let mut level = Vector3::zeros();
+        self.error = Vector2::zeros();
         if let Some(sensed) = sensed {
             let error = sensed.divergent_component() - planned.divergent_component();
             let shift = if on_both_feet {
                 (error * self.parameters.gain).map(|shift| shift.clamp(-SHIFT_ON_BOTH_FEET, SHIFT_ON_BOTH_FEET))
             } else {
+                level = -Vector3::new(tilt.x, tilt.y, 0.0);
+                self.error = error;
+                self.room = self.room_towards(error);
                 self.zmp_shift(error, zmp_planned)
             };
             // To push the ground further ahead (+x) the body leans back (−y); further left (+y) it leans right (+x).
@@ -76,8 +97,9 @@ impl Feedback {
         for (joint, axis) in ANKLES[0].into_iter().zip(self.axes) {
             self.follow(joint, axis.dot(&lean), self.parameters.lag, dt);
         }
-        for joint in ANKLES[1] {
-            self.follow(joint, 0.0, self.parameters.fade, dt);
+        // The left leg is walked down: its ankle turns the foot, the bearing one the body.
+        for (joint, axis) in ANKLES[1].into_iter().zip(self.swinging_axes) {
+            self.follow(joint, axis.dot(&level), self.parameters.fade, dt);
         }
     }
 
@@ -85,6 +107,7 @@ impl Feedback {
     pub fn swap(&mut self, mirror: &Mirror) {
         self.offsets = self.offsets.mirrored(mirror);
         self.lean = Vector2::zeros();
+        self.error = Vector2::zeros();
     }
 
     /// Lets everything fade: nothing bears, or nothing is known.
@@ -105,6 +128,25 @@ impl Feedback {
         })
     }
 
+    /// How far the ZMP can be moved from under the ankle, where a walk has it, in the direction of an error [m]. Not from
+    /// where it is planned just now: a step that is planned anew moves that, and would take back itself.
+    fn room_towards(&self, error: Vector2<f64>) -> Vector2<f64> {
+        let edge = self.sole_half_size - Vector2::repeat(self.parameters.edge);
+        (edge + self.sole_centre.component_mul(&error.map(f64::signum))).map(|room| room.max(0.0))
+    }
+
+    /// How far off its place the divergent component will be at touchdown, beyond what the ankles can do now and then, in
+    /// support coordinates [m]. With the ZMP at the edge an error e becomes `room + (e − room)·growth`.
+    ///
+    /// * `growth` – `e^(ωt)` over the time until then
+    pub fn excess(&self, growth: f64) -> Vector2<f64> {
+        Vector2::from_fn(|axis, _| {
+            let (error, room) = (self.error[axis], self.room[axis]);
+            let left = room + (error.abs() - room) * growth - LEFT_TO_NEXT_ANKLE[axis];
+            left.max(0.0) * error.signum()
+        })
+    }
+
     /// One implicit step of a critically damped lag: stable for any `lag` and `dt`.
     fn follow(&mut self, joint: Joint, target: f64, lag: f64, dt: f64) {
         let (angle, rate) = (self.offsets.angles[joint], self.offsets.rates[joint]);
@@ -117,5 +159,68 @@ impl Feedback {
     /// What is added at present: angles with their rates, in support coordinates.
     pub fn offsets(&self) -> &Motion {
         &self.offsets
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn feedback() -> Feedback {
+        let mechanism = Mechanism::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism.toml")).unwrap();
+        let parameters = FeedbackParameters { gain: 3.0, ankle_stiffness: 5000.0, edge: 0.005, lag: 0.01, fade: 0.05 };
+        Feedback::new(&mechanism, parameters)
+    }
+
+    /// A resting centre of mass at `x`, `y`, 0.9 m high.
+    fn at(x: f64, y: f64) -> CentreOfMass {
+        CentreOfMass { position: Vector3::new(x, y, 0.9), velocity: Vector3::zeros() }
+    }
+
+    /// The oracle: ξ̇ = ω(ξ − p) of both the plan and the robot, integrated, with the ZMP at the edge of the sole.
+    #[test]
+    fn the_excess_is_what_a_pendulum_does() {
+        let mut feedback = feedback();
+        feedback.update(&at(0.0, 0.0), Some(&at(-0.09, 0.05)), Vector2::zeros(), Vector2::zeros(), false, 1e-3);
+        let omega = at(0.0, 0.0).pendulum_rate();
+        // The heel is 7 cm behind, the edge 4 cm aside.
+        let zmp_shift = Vector2::new(-0.065, 0.035);
+        let mut error = Vector2::new(-0.09, 0.05);
+        for _ in 0..300_000 {
+            error += (error - zmp_shift) * (omega * 1e-6);
+        }
+        let excess = feedback.excess((omega * 0.3).exp());
+        let expected = error - error.map(f64::signum).component_mul(&LEFT_TO_NEXT_ANKLE);
+        assert!((excess - expected).norm() < 1e-5, "{excess} instead of {expected}");
+    }
+
+    #[test]
+    fn what_the_ankle_can_do_needs_no_step() {
+        let mut feedback = feedback();
+        feedback.update(&at(0.0, 0.0), Some(&at(0.15, -0.03)), Vector2::zeros(), Vector2::zeros(), false, 1e-3);
+        assert_eq!(feedback.excess(3.0), Vector2::zeros());
+    }
+
+    /// The body turned by a small angle about x: the swinging ankle turns the foot back.
+    #[test]
+    fn the_swinging_sole_stays_level() {
+        let mut feedback = feedback();
+        for _ in 0..1000 {
+            feedback.update(
+                &at(0.0, 0.0),
+                Some(&at(0.0, 0.0)),
+                Vector2::new(0.02, 0.03),
+                Vector2::zeros(),
+                false,
+                1e-3,
+            );
+        }
+        let mechanism = Mechanism::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism.toml")).unwrap();
+        let tree = dynamics::Tree::new(&mechanism);
+        let mut angles = feedback.offsets().angles;
+        [angles[Joint::FootRoll], angles[Joint::FootPitch]] = [0.02, 0.03];
+        let sole = dynamics::Kinematics::standing(&tree, &angles).sole_to_world(&mechanism, model::Side::Left);
+        let up = sole.rotation * Vector3::z();
+        assert!(up.xy().norm() < 1e-3, "{up}");
     }
 }

@@ -2,9 +2,10 @@
 
 use dynamics::{NewtonEuler, SupportPolygon, Tree, zmp};
 use model::{Joint, JointVector, Mechanism, Mirror, Motion, Side};
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 
 use crate::CentreOfMass;
+use crate::sensed::TRUNK;
 
 /// What a motion needs of drives and ground if the bearing sole stays flat.
 #[derive(Clone, Debug)]
@@ -13,6 +14,8 @@ pub struct Plan {
     sole: SupportPolygon,
     /// Reflected rotor inertias [kg·m²].
     rotors: JointVector,
+    /// How the vertical was taken to lean over the sole.
+    vertical: Vector2<f64>,
     /// Torques of the drives, rotors included [N·m].
     pub torques: JointVector,
     /// Where the ground must push, relative to O [m]; outside the sole it is fictitious.
@@ -34,38 +37,40 @@ impl Plan {
             inverse: NewtonEuler::default(),
             sole: SupportPolygon::hull(mechanism.sole.corners().map(|corner| corner.xy())),
             rotors,
+            vertical: Vector2::zeros(),
             torques: JointVector::ZERO,
             zmp: Vector2::zeros(),
             margin: 0.0,
             centre_of_mass: CentreOfMass::of_motion(tree, &kinematics, &JointVector::ZERO),
         };
-        plan.update(tree, mirror, &Motion::default(), Vector2::zeros(), false);
+        plan.update(tree, mirror, &Motion::default(), false);
         plan
+    }
+
+    /// How the robot is turned beyond the plan, about x and y of support coordinates [rad]: by a sole that tips, by joints
+    /// that give way.
+    ///
+    /// * `up_in_trunk` – the vertical as sensed, in the trunk's axes
+    /// * `vertical` – how it leans in axes of the floor, as soles now tell
+    pub fn tilt(&self, up_in_trunk: &Vector3<f64>, vertical: Vector2<f64>) -> Vector2<f64> {
+        let up = self.inverse.kinematics.rotation[TRUNK] * up_in_trunk;
+        let up = up.xy() + self.vertical - vertical;
+        Vector2::new(up.y, -up.x)
     }
 
     /// What `motion`, told in support coordinates, needs.
     ///
-    /// The floor may be a slope: `vertical` is how the vertical leans in axes of the sole (x and y of the unit vector).
-    /// Level coordinates then see the sole turned about the ankle's foot, which is what joints 1 and 2 are for.
+    /// On a slope joints 1 and 2 say how the sole lies in level coordinates.
     ///
     /// On one foot that foot carries all. On both, they share what the ground gives as the ZMP lies between them; torques
     /// are linear in the share: they are those of standing on the one foot and on the other, mixed.
-    pub fn update(
-        &mut self,
-        tree: &Tree,
-        mirror: &Mirror,
-        motion: &Motion,
-        vertical: Vector2<f64>,
-        on_both_feet: bool,
-    ) {
-        let mut motion = *motion;
-        motion.angles[Joint::FootRoll] = vertical.y;
-        motion.angles[Joint::FootPitch] = -vertical.x;
+    pub fn update(&mut self, tree: &Tree, mirror: &Mirror, motion: &Motion, on_both_feet: bool) {
+        self.vertical = Vector2::new(-motion.angles[Joint::FootPitch], motion.angles[Joint::FootRoll]);
         let on_other = on_both_feet.then(|| {
             self.inverse.stand(tree, &motion.mirrored(mirror));
             mirror.apply(&self.inverse.torques)
         });
-        self.inverse.stand(tree, &motion);
+        self.inverse.stand(tree, motion);
         // A motion that needs no ground has its point infinitely far away; the last one stands for it.
         if let Some(point) = zmp(&self.inverse.ground) {
             self.zmp = point;

@@ -31,6 +31,8 @@ pub struct Controller {
     ground: Ground,
     plan: Plan,
     feedback: Feedback,
+    /// How the robot is turned beyond the plan, about x and y of support coordinates, when last sensed [rad].
+    tilt: Vector2<f64>,
     guard: Guard,
     mode: Mode,
     intent: Intent,
@@ -52,7 +54,7 @@ impl Controller {
         let walk = Walk::new(table, mechanism, &parameters.gait, start)?;
         let tree = Tree::new(mechanism);
         let mut plan = Plan::new(mechanism, &tree, walk.mirror());
-        plan.update(&tree, walk.mirror(), &walk.motion(), Vector2::zeros(), false);
+        plan.update(&tree, walk.mirror(), &walk.motion(), false);
         let guard = Guard::new(mechanism, &walk.physical_motion().angles);
         let pattern = Pattern::new(mechanism, walk, parameters.compensation);
         Ok(Self {
@@ -61,6 +63,7 @@ impl Controller {
             zmp_estimator: ZmpEstimator::new(mechanism, parameters.balance.zmp),
             ground: Ground { zmp: None, margin: f64::NEG_INFINITY, loads: [0.0; 2], bears: [false; 2] },
             feedback: Feedback::new(mechanism, parameters.balance.feedback),
+            tilt: Vector2::zeros(),
             guard,
             mode: Mode::Walking,
             intent: Intent::Walk,
@@ -96,7 +99,12 @@ impl Controller {
         }
         let known = centre_of_mass.filter(|_| is_planned);
         let on_both_feet = self.pattern.weight_on_bearing() < 1.0;
-        self.feedback.update(&self.plan.centre_of_mass, known.as_ref(), self.plan.zmp, on_both_feet, dt);
+        self.feedback.update(&self.plan.centre_of_mass, known.as_ref(), self.tilt, self.plan.zmp, on_both_feet, dt);
+
+        self.pattern.sense_tilt(if known.is_some() && !on_both_feet { self.tilt } else { Vector2::zeros() });
+        if known.is_some() {
+            self.pattern.catch(|growth| self.feedback.excess(growth));
+        }
 
         // What does the walk ask for?
         let support = self.pattern.half_step().support;
@@ -160,6 +168,7 @@ impl Controller {
         if self.ground.margin > FLAT_MARGIN && !self.ground.bears[1] {
             self.pattern.sense_vertical(sensed.up_over_sole(&self.kinematics).xy(), dt);
         }
+        self.tilt = self.plan.tilt(&sensed.up_in_trunk, self.pattern.vertical_now());
         Some(CentreOfMass::sensed(&self.tree, &self.kinematics, &sensed))
     }
 
@@ -182,7 +191,7 @@ impl Controller {
             _ => Mode::Walking,
         };
         let on_both_feet = self.pattern.weight_on_bearing() < 1.0;
-        self.plan.update(&self.tree, self.pattern.mirror(), &motion, self.pattern.vertical(), on_both_feet);
+        self.plan.update(&self.tree, self.pattern.mirror(), &motion, on_both_feet);
         motion + *self.feedback.offsets()
     }
 

@@ -108,18 +108,33 @@ impl Pattern {
         }
     }
 
+    /// How the vertical leans over the floor as soles now tell, in support coordinates; the plan follows slowly, and the
+    /// plain sum knows level floors only.
+    pub fn vertical_now(&self) -> Vector2<f64> {
+        match self {
+            Pattern::Plain(_) => Vector2::zeros(),
+            Pattern::Preview(preview) => preview.vertical_now(),
+        }
+    }
+
+    /// Absorbs how the body is turned beyond the plan, about x and y of support coordinates [rad].
+    pub fn sense_tilt(&mut self, tilt: Vector2<f64>) {
+        if let Pattern::Preview(preview) = self {
+            preview.sense_tilt(tilt);
+        }
+    }
+
+    /// Lands the swinging foot where it catches the robot, see [`Preview::catch`].
+    pub fn catch(&mut self, excess: impl Fn(f64) -> Vector2<f64>) {
+        if let Pattern::Preview(preview) = self {
+            preview.catch(excess);
+        }
+    }
+
     /// Absorbs how the vertical leans over the bearing sole, in support coordinates, `dt` seconds after the last time.
     pub fn sense_vertical(&mut self, lean: Vector2<f64>, dt: f64) {
         if let Pattern::Preview(preview) = self {
             preview.sense_vertical(lean, dt);
-        }
-    }
-
-    /// How the vertical is taken to lean over the floor, in support coordinates; the plain sum knows level floors only.
-    pub fn vertical(&self) -> Vector2<f64> {
-        match self {
-            Pattern::Plain(_) => Vector2::zeros(),
-            Pattern::Preview(preview) => preview.vertical(),
         }
     }
 

@@ -2,9 +2,9 @@
 
 use dynamics::{Kinematics, Leg, atan2};
 use model::{JointVector, Side};
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 
-use crate::preview::{Biped, Course, HipHeight, SolePose, SwingPath, Wanted};
+use crate::preview::{Biped, Course, Gate, HipHeight, KNOT, LandingShift, SolePose, SwingPath, Wanted};
 
 /// The course at a knot, with the paths of the swinging sole and of the hips' height.
 #[derive(Clone, Debug)]
@@ -12,23 +12,37 @@ pub struct Footwork {
     /// Which half-steps, and where they put the feet.
     pub course: Course,
     swing: SwingPath,
+    shift: LandingShift,
     hips: HipHeight,
 }
+
+/// How far a landing is shifted at most, ahead or back and outward [m].
+const SHIFT_MAX: Vector2<f64> = Vector2::new(0.2, 0.15);
+/// Between the soles' middles at least [m]: 2 cm between their edges, and some for turned feet.
+const SOLES_APART: f64 = 0.12;
+/// What is not worth another plan [m].
+const SHIFT_STEP: f64 = 0.008;
 
 const PELVIS: model::Joint = Leg(Side::Right).end();
 
 impl Footwork {
     /// At the present knot of a course.
     pub fn new(biped: &Biped, course: Course) -> Self {
-        Self { swing: swing_path(biped, &course), hips: HipHeight::new(biped, &course.walk), course }
+        Self {
+            swing: swing_path(biped, &course),
+            shift: LandingShift::default(),
+            hips: HipHeight::new(biped, &course.walk),
+            course,
+        }
     }
 
     /// Moves on by a knot and says whether a half-step began.
     pub fn advance(&mut self, biped: &Biped) -> bool {
-        let Self { course, swing, hips } = self;
+        let Self { course, swing, shift, hips } = self;
         let begins = course.advance(biped);
         if begins {
             *swing = swing_path(biped, course);
+            *shift = LandingShift::default();
             let speed = course.walk.speed().target().min(course.walk.speed().state().value);
             let half_duration = 0.5 * course.walk.table().duration / speed / biped.sway.height_over_gravity.sqrt();
             hips.begin_half_step(half_duration, |progress| swing.at(progress, &course.swinging_sole(biped, progress)));
@@ -39,17 +53,43 @@ impl Footwork {
         begins
     }
 
+    /// Lands the swinging foot `shift` off where the walk asks, in support coordinates [m], as far as feet and legs let it;
+    /// says whether that changed anything. Nothing changes late in a half-step or before a stand.
+    pub fn shift_landing(&mut self, shift: Vector2<f64>) -> bool {
+        let asked = self.course.feet.landing.position.xy() - self.shift.target();
+        let inward = (SOLES_APART - asked.y).min(0.0);
+        let shift = Vector2::new(shift.x.clamp(-SHIFT_MAX.x, SHIFT_MAX.x), shift.y.clamp(inward, SHIFT_MAX.y));
+        let is_new = (shift - self.shift.target()).amax() > SHIFT_STEP;
+        let shifts = is_new
+            && self.course.gate == Gate::Open
+            && self.shift.retarget(self.course.walk.half_step().progress, shift);
+        if shifts {
+            self.course.feet.landing.position.x = asked.x + shift.x;
+            self.course.feet.landing.position.y = asked.y + shift.y;
+        }
+        shifts
+    }
+
+    /// How many knots are left of the half-step at the present speed.
+    pub fn knots_left(&self) -> f64 {
+        let left = (1.0 - self.course.walk.half_step().progress) * self.course.walk.table().duration;
+        left / self.course.walk.speed().state().value / KNOT
+    }
+
     /// The posture that has the centre of mass at `com` in the walk frame [m].
     pub fn wanted(&self, biped: &Biped, com: Vector2<f64>) -> Wanted {
         let progress = self.course.walk.half_step().progress;
         let asked = Kinematics::standing(&biped.tree, &self.course.walk.motion().angles);
         let nominal = self.course.walk.table().at(progress).angles;
         let pelvis_ahead = asked.rotation[PELVIS].column(0).into_owned();
+        let mut swinging = self.swing.at(progress, &SolePose::swinging(&biped.mechanism, &asked));
+        let [shift, ..] = self.shift.at(progress);
+        swinging.position += Vector3::new(shift.x, shift.y, 0.0);
         Wanted {
             com: self.course.feet.footprint.point_to_support(com),
             hip_height: Kinematics::standing(&biped.tree, &nominal).origin[PELVIS].z - self.hips.lowered(progress),
             pelvis_yaw: atan2(pelvis_ahead.y, pelvis_ahead.x),
-            swinging: self.swing.at(progress, &SolePose::swinging(&biped.mechanism, &asked)),
+            swinging,
             upper: nominal,
         }
     }

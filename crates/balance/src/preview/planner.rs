@@ -4,13 +4,18 @@ use std::sync::Arc;
 
 use dynamics::Kinematics;
 use gait::{Admission, Command, HalfStep, Request, Walk};
-use model::{GRAVITY, JointVector, Mechanism, Motion, Side};
+use model::{GRAVITY, Joint, JointVector, Mechanism, Motion, Side};
 use nalgebra::Vector2;
 
-use crate::preview::{Biped, CartState, Course, Floor, Footprint, Footwork, Foresight, Gate, Stance, WholeBody};
+use crate::preview::{
+    Biped, CartState, Course, Floor, Footprint, Footwork, Foresight, Gate, Height, Stance, WholeBody,
+};
 
 /// Time between knots [s].
 pub const KNOT: f64 = 0.01;
+
+/// A new landing is a new plan: not more often than this.
+const KNOTS_BETWEEN_SHIFTS: u32 = 5;
 
 /// A walk whose centre of mass is planned. Takes the place of the plain [`Walk`].
 #[derive(Clone, Debug)]
@@ -24,10 +29,15 @@ pub struct Preview {
     body: WholeBody,
     /// How the floor tilts.
     floor: Floor,
+    height: Height,
+    /// How the body is turned beyond the plan, about x and y of support coordinates [rad].
+    tilt: Vector2<f64>,
     /// The last four knots, oldest first; now is between the second and the third.
     knots: [Knot; 4],
     /// Since the second knot [s].
     elapsed: f64,
+    /// Knots since the landing was shifted last.
+    since_shift: u32,
     unreachable: bool,
 }
 
@@ -39,6 +49,8 @@ struct Knot {
     /// Half-steps since the beginning, with their progress.
     place: f64,
     speed: f64,
+    /// How the vertical is taken to lean over the floor, in the walk frame: x and y of the unit vector [-].
+    vertical: Vector2<f64>,
     /// Share of the weight that the bearing foot carries.
     weight: f64,
 }
@@ -60,6 +72,7 @@ impl Preview {
             angles: footwork.physical(&biped, &motion.angles),
             place: footwork.place(),
             speed: footwork.speed(),
+            vertical: Vector2::zeros(),
             weight: 1.0,
         };
         let mut preview = Self {
@@ -67,8 +80,11 @@ impl Preview {
             correction: [CartState::zeros(); 2],
             body: WholeBody::new(&biped, &motion.angles),
             floor: Floor::default(),
+            height: Height::default(),
+            tilt: Vector2::zeros(),
             knots: [knot; 4],
             elapsed: 0.0,
+            since_shift: 0,
             unreachable: false,
             biped: Arc::new(biped),
             footwork,
@@ -172,11 +188,35 @@ impl Preview {
         gait::interpolate(&state(before, from, to), &state(from, to, after), self.elapsed / KNOT, KNOT)
     }
 
-    /// What is asked now, in support coordinates.
+    /// What is asked now, in support coordinates. Joints 1 and 2 tell how the sole lies on a slope.
     pub fn motion(&self) -> Motion {
-        match self.half_step().support {
+        let mut motion = match self.half_step().support {
             Side::Right => self.physical_motion(),
             Side::Left => self.physical_motion().mirrored(self.footwork.course.walk.mirror()),
+        };
+        let [_, from, to, _] = &self.knots;
+        let change = to.vertical - from.vertical;
+        let vertical = self.direction_to_support(from.vertical + change * (self.elapsed / KNOT));
+        let rate = self.direction_to_support(change / KNOT);
+        // The turn that brings the vertical upright.
+        (motion.angles[Joint::FootRoll], motion.angles[Joint::FootPitch]) = (vertical.y, -vertical.x);
+        (motion.rates[Joint::FootRoll], motion.rates[Joint::FootPitch]) = (rate.y, -rate.x);
+        motion
+    }
+
+    /// Lands the swinging foot where it catches the robot.
+    ///
+    /// * `excess` – by a factor of growth until touchdown: how far off its place the divergent component will be then, beyond
+    ///   what ankles can do, in support coordinates [m]
+    pub fn catch(&mut self, excess: impl Fn(f64) -> Vector2<f64>) {
+        if self.walk().half_step().index != self.half_step().index || self.since_shift < KNOTS_BETWEEN_SHIFTS {
+            return;
+        }
+        let knots = self.footwork.knots_left() as i32;
+        let growth = (1.0 + KNOT / self.biped.sway.height_over_gravity.sqrt()).powi(knots);
+        if self.footwork.shift_landing(excess(growth)) {
+            self.since_shift = 0;
+            self.look_ahead();
         }
     }
 
@@ -184,14 +224,26 @@ impl Preview {
     pub fn sense_vertical(&mut self, lean: Vector2<f64>, dt: f64) {
         // The newest knot is a little ahead: just before a swap it is told from the other foot.
         if self.walk().half_step().index == self.half_step().index {
-            self.floor.update(self.footwork.course.feet.footprint.direction_to_walk(lean), dt);
+            self.floor.sense(self.footwork.course.feet.footprint.direction_to_walk(lean), dt);
         }
     }
 
-    /// How the vertical is taken to lean over the floor, in support coordinates: x and y of the unit vector [-].
-    pub fn vertical(&self) -> Vector2<f64> {
+    /// Absorbs how the body is turned beyond the plan, about x and y of support coordinates [rad].
+    pub fn sense_tilt(&mut self, tilt: Vector2<f64>) {
+        if self.walk().half_step().index == self.half_step().index {
+            self.tilt = tilt;
+        }
+    }
+
+    /// How the vertical leans over the floor as soles now tell, in support coordinates: x and y of the unit vector [-]. The
+    /// plan follows slowly.
+    pub fn vertical_now(&self) -> Vector2<f64> {
+        self.direction_to_support(self.floor.lean_now())
+    }
+
+    fn direction_to_support(&self, direction: Vector2<f64>) -> Vector2<f64> {
         let newest = self.footwork.course.feet.footprint;
-        Footprint { side: self.half_step().support, ..newest }.direction_to_support(self.floor.lean())
+        Footprint { side: self.half_step().support, ..newest }.direction_to_support(direction)
     }
 
     /// Whether a leg was too short at the newest knot, so that the posture before was kept.
@@ -211,23 +263,33 @@ impl Preview {
 
     /// Plans and realises one more knot.
     fn plan_knot(&mut self) {
+        self.since_shift = self.since_shift.saturating_add(1);
         let biped = &*self.biped;
         let wanted = self.foresight.weighed(biped);
         self.correction = [0, 1].map(|axis| biped.correction.advance(&self.correction[axis], wanted[axis]));
         self.foresight.advance(biped);
         if self.footwork.advance(biped) {
             self.body.swap(biped);
+            self.height.swap();
+            // Turned the same, seen in the mirror.
+            self.tilt.x = -self.tilt.x;
         }
 
+        self.floor.advance(KNOT);
         let uphill = self.floor.lean() * (biped.sway.height_over_gravity * GRAVITY);
         let com = self.foresight.com() + Vector2::new(self.correction[0].x, self.correction[1].x) + uphill;
-        let reached = self.body.reach(biped, &self.footwork.wanted(biped, com));
+        let mut wanted = self.footwork.wanted(biped, com);
+        self.height.advance(self.tilt, wanted.swinging.position.xy(), KNOT);
+        wanted.swinging.position.z += self.height.of_sole();
+        wanted.hip_height += self.height.of_hips();
+        let reached = self.body.reach(biped, &wanted);
         self.unreachable = reached.is_err();
         let angles = reached.map_or(self.knots[3].angles, |angles| self.footwork.physical(biped, &angles));
         let knot = Knot {
             angles,
             place: self.footwork.place(),
             speed: self.footwork.speed(),
+            vertical: self.floor.lean(),
             weight: self.footwork.course.gate.weight_on_bearing(),
         };
         self.knots.rotate_left(1);
