@@ -22,6 +22,7 @@ pub mod script;
 pub mod summary;
 pub mod turns;
 pub mod urdf;
+pub mod voice;
 pub mod words;
 
 use std::process::ExitCode;

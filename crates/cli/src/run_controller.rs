@@ -40,16 +40,16 @@ pub fn run_controller(
 
         let measurement = exchange::measurement::for_controller(&turn.message);
         inbox.collect();
-        let asked = inbox.due(turn.tick);
+        let due = inbox.due(turn.tick);
 
         let dt = turn.periods as f64 * PERIOD.as_secs_f64();
-        let request = asked.as_ref().map(|asked| (&asked.request, asked.intent));
+        let request = due.as_ref().map(|due| (&due.asked.request, due.asked.intent));
         let report = controller.tick(dt, Some(&measurement), request);
 
         setpoints.write(&exchange::setpoint::message(turn.message.tick, time_ns, &report.setpoint));
         let compute_ns = now_ns() - time_ns;
 
-        inbox.answer(asked, &report);
+        inbox.answer(due, &report);
         let (late, missed) = (turn.missed > 0, run.missed);
         record.push(ControllerEntry { tick: turn.tick, time_ns, compute_ns, late, missed, report });
         let (half_steps, mode) = (report.half_step.index, Some(report.mode));

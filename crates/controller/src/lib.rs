@@ -4,6 +4,7 @@
 //! and a report. It never allocates, blocks, logs or fails: bad input becomes a [`Fault`] in the report, and the same
 //! inputs give the same bits. There is no clock and no I/O here.
 
+mod asked;
 mod controller;
 mod fault;
 mod guard;
@@ -12,8 +13,10 @@ mod mode;
 mod parameters;
 mod pattern;
 mod report;
+mod sources;
 mod watch;
 
+pub use asked::Asked;
 pub use controller::Controller;
 pub use fault::{Fault, Faults};
 pub use guard::Guard;
@@ -22,3 +25,4 @@ pub use mode::{Intent, Mode};
 pub use parameters::{Parameters, WatchParameters};
 pub use pattern::{Compensation, Pattern};
 pub use report::{Answer, Refusal, Setpoint, TickReport};
+pub use sources::{AGE_LIMIT_MIN, Lasting, Outranked, Source, Sources, SourcesParameters};

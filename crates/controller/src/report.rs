@@ -4,7 +4,7 @@ use gait::{Admission, HalfStep};
 use model::JointVector;
 use nalgebra::Vector2;
 
-use crate::{Faults, Intent, Mode};
+use crate::{Faults, Intent, Mode, Outranked};
 
 /// What the drives are to reach at the end of the period, in physical joints.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -56,10 +56,12 @@ pub struct Answer {
 }
 
 /// Why a request as a whole was refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Refusal {
     /// The robot has fallen.
     Fallen,
     /// The plain sum of modifications has been stopped; it cannot begin again from a stand.
     Standing,
+    /// A source that goes before the one that asked is in command.
+    Outranked(Outranked),
 }

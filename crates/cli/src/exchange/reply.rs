@@ -1,8 +1,10 @@
 //! Reply, controller → wire → operator.
 
-use controller::{Answer, Intent, Refusal};
+use controller::{Answer, Intent, Outranked, Refusal};
 use gait::Quantity;
-use wire::{Granted, Reason, Reply, Verdict};
+use wire::{Bound, Granted, InCommand, Reason, Reply, Verdict};
+
+use super::source;
 
 /// The controller's answer, for the wire.
 pub fn reply(answer: &Answer) -> Reply {
@@ -13,10 +15,17 @@ pub fn reply(answer: &Answer) -> Reply {
         gait::Verdict::Limited => Verdict::Limited,
         gait::Verdict::Refused => Verdict::Refused,
     };
-    let reason = match (refusal, admission.reason()) {
-        (Some(Refusal::Fallen | Refusal::Standing), _) => Reason::NoWayBack,
+    let (reason, bound) = match (refusal, admission.reason()) {
+        (Some(Refusal::Fallen | Refusal::Standing), _) => (Reason::NoWayBack, None),
+        (Some(Refusal::Outranked(_)), _) => (Reason::Outranked, None),
         (None, Some(reason)) => objection(reason),
-        (None, None) => Reason::None,
+        (None, None) => (Reason::None, None),
+    };
+    let in_command = match *refusal {
+        Some(Refusal::Outranked(Outranked { by, remaining })) => {
+            Some(InCommand { source: source::for_wire(by), remaining })
+        }
+        Some(Refusal::Fallen | Refusal::Standing) | None => None,
     };
     let gait::Command { turn, speed, extension } = admission.granted;
     let intent = Some(match intent {
@@ -25,16 +34,53 @@ pub fn reply(answer: &Answer) -> Reply {
         Intent::Hold => wire::Intent::Hold,
     });
     let granted = Granted { turn, speed, extension, intent };
-    Reply { verdict, reason, effect_half_step: admission.effect_half_step, granted }
+    let effect_half_step = admission.effect_half_step;
+    Reply { verdict, reason, effect_half_step, granted, bound, in_command, predicted_margin: None }
 }
 
-fn objection(reason: gait::Reason) -> Reason {
-    match reason {
-        gait::Reason::NotFinite(_) => Reason::NotFinite,
-        gait::Reason::BelowMin { quantity, .. } | gait::Reason::AboveMax { quantity, .. } => match quantity {
-            Quantity::Turn => Reason::TurnLimit,
-            Quantity::Speed => Reason::SpeedLimit,
-            Quantity::Extension => Reason::ExtensionLimit,
-        },
+fn objection(reason: gait::Reason) -> (Reason, Option<Bound>) {
+    let (quantity, value, limit) = match reason {
+        gait::Reason::NotFinite(_) => return (Reason::NotFinite, None),
+        gait::Reason::BelowMin { quantity, asked, min } => (quantity, asked, min),
+        gait::Reason::AboveMax { quantity, asked, max } => (quantity, asked, max),
+    };
+    let reason = match quantity {
+        Quantity::Turn => Reason::TurnLimit,
+        Quantity::Speed => Reason::SpeedLimit,
+        Quantity::Extension => Reason::ExtensionLimit,
+    };
+    (reason, Some(Bound { joint: None, value, limit }))
+}
+
+#[cfg(test)]
+mod tests {
+    use controller::Source;
+    use gait::{Admission, Command};
+
+    use super::*;
+
+    const ADMISSION: Admission = Admission {
+        verdict: gait::Verdict::Accepted,
+        reasons: [None; 3],
+        granted: Command::NOMINAL,
+        effect_half_step: 7,
+    };
+
+    #[test]
+    fn a_limit_comes_with_its_numbers() {
+        let above = gait::Reason::AboveMax { quantity: Quantity::Speed, asked: 9.0, max: 1.4 };
+        let admission = Admission { verdict: gait::Verdict::Limited, reasons: [None, Some(above), None], ..ADMISSION };
+        let reply = reply(&Answer { admission, intent: Intent::Walk, refusal: None });
+        assert_eq!((reply.verdict, reply.reason), (Verdict::Limited, Reason::SpeedLimit));
+        assert_eq!(reply.bound, Some(Bound { joint: None, value: 9.0, limit: 1.4 }));
+        assert_eq!(reply.in_command, None);
+    }
+
+    #[test]
+    fn who_is_outranked_is_told_by_whom() {
+        let refusal = Some(Refusal::Outranked(Outranked { by: Source::Teleop, remaining: 0.25 }));
+        let reply = reply(&Answer { admission: ADMISSION, intent: Intent::Walk, refusal });
+        assert_eq!((reply.verdict, reply.reason), (Verdict::Refused, Reason::Outranked));
+        assert_eq!(reply.in_command, Some(InCommand { source: wire::Source::Teleop, remaining: 0.25 }));
     }
 }
