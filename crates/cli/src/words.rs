@@ -86,7 +86,7 @@ fn why(asked: &Request, reply: &Reply) -> String {
     if let Some(wire::InCommand { source, remaining }) = reply.in_command {
         let asking = asked.source;
         return format!(
-            "{source} is in command and goes before {asking}; it holds for another {remaining:.2} s at least"
+            "{source} is in command and goes before {asking}, for another {remaining:.2} s if it says no more"
         );
     }
     let Some(Bound { joint, value, limit }) = reply.bound else { return reply.reason.to_string() };
@@ -186,7 +186,7 @@ mod tests {
         let refused = Reply { in_command, ..answer(Verdict::Refused, Reason::Outranked) };
         assert_eq!(
             reply(&asked, &refused),
-            "refused because teleop is in command and goes before script; it holds for another 0.42 s at least"
+            "refused because teleop is in command and goes before script, for another 0.42 s if it says no more"
         );
         let json = serde_json::to_value(ReplyInJson::from(&refused)).unwrap();
         assert_eq!(json["in_command"], serde_json::json!({"source": "teleop", "remaining_s": 0.4201}));
