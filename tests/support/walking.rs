@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use controller::{Controller, Intent, Measurement, Mode, TickReport};
+use controller::{Asked, Controller, Intent, Lasting, Measurement, Mode, Source, TickReport};
 use gait::{NominalTable, Request, Start, Walk};
 use model::Mechanism;
 use plant::{Plant, Setpoint, Truth};
@@ -62,12 +62,36 @@ impl Walking {
         Self { controller, plant, measured, tick: 0 }
     }
 
-    /// One period of both.
+    /// One period of both, with a single request of a person.
     pub fn tick(&mut self, request: Option<(&Request, Option<Intent>)>) -> TickReport {
-        let report = self.controller.tick(PERIOD, Some(&self.measured), request);
+        let asked = request.map(|(request, intent)| Asked {
+            request: *request,
+            intent,
+            source: Source::Console,
+            lasting: Lasting::UntilChanged,
+        });
+        self.tick_with(asked.as_ref())
+    }
+
+    /// One period of both, with what somebody asks.
+    pub fn tick_with(&mut self, asked: Option<&Asked>) -> TickReport {
+        self.settle();
+        if let Some(asked) = asked {
+            assert!(self.controller.is_free(), "one request per tick");
+            self.controller.ask(asked);
+            self.settle();
+        }
+        let report = self.controller.tick(PERIOD, Some(&self.measured));
         self.tick += 1;
         self.measured = sensed(&self.plant.step(&setpoint(&report)));
         report
+    }
+
+    fn settle(&mut self) {
+        if let Some(mut inquiry) = self.controller.inquiry() {
+            inquiry.settle();
+            self.controller.give_back(inquiry);
+        }
     }
 
     /// Walks on for `seconds`, or until it falls: the truth at the end.

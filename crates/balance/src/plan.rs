@@ -43,6 +43,11 @@ impl Plan {
         plan
     }
 
+    /// Where every link is.
+    pub fn kinematics(&self) -> &dynamics::Kinematics {
+        &self.inverse.kinematics
+    }
+
     /// What `motion`, told in support coordinates, needs.
     ///
     /// On one foot that foot carries all. On both, they share what the ground gives as the ZMP lies between them; torques

@@ -3,6 +3,7 @@
 //! One command per file in [`command`]; the two loops are [`run_controller`] and [`run_plant`]. The crates that these tie
 //! together do not know each other: what one says is put into the other's words in [`exchange`].
 
+pub mod advisor;
 pub mod command;
 pub mod configuration;
 pub mod exchange;
@@ -22,6 +23,7 @@ pub mod script;
 pub mod summary;
 pub mod turns;
 pub mod urdf;
+pub mod voice;
 pub mod words;
 
 use std::process::ExitCode;

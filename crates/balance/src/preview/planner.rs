@@ -24,6 +24,8 @@ pub struct Preview {
     body: WholeBody,
     /// The last four knots, oldest first; now is between the second and the third.
     knots: [Knot; 4],
+    /// Counts what was planned.
+    stamp: u64,
     /// Since the second knot [s].
     elapsed: f64,
     unreachable: bool,
@@ -42,11 +44,27 @@ struct Knot {
 }
 
 impl Preview {
-    /// A walk at its very beginning.
+    /// A walk in stride, at the very beginning of its first half-step.
     pub fn new(mechanism: &Mechanism, walk: Walk) -> Self {
         let biped = Biped::new(mechanism, walk.mirror(), walk.table());
         let motion = walk.motion();
         let footwork = Footwork::new(&biped, Course::new(&biped, walk));
+        Self::begin(biped, footwork, &motion)
+    }
+
+    /// A stand with the feet side by side, from which a walk can be started.
+    pub fn standing(mechanism: &Mechanism, walk: Walk) -> Self {
+        let biped = Biped::new(mechanism, walk.mirror(), walk.table());
+        let nominal = walk.motion().angles;
+        let footwork = Footwork::new(&biped, Course::standing(&biped, walk));
+        let feet = &footwork.course.feet;
+        let middle = feet.footprint.point_to_walk(feet.standing.position.xy() / 2.0);
+        let posture = WholeBody::new(&biped, &nominal).reach(&biped, &footwork.wanted(&biped, middle));
+        Self::begin(biped, footwork, &Motion::at_rest(posture.unwrap_or(nominal)))
+    }
+
+    /// Begins with a motion, told in support coordinates.
+    fn begin(biped: Biped, footwork: Footwork, motion: &Motion) -> Self {
         let kinematics = Kinematics::standing(&biped.tree, &motion.angles);
         let com = cart_states(
             &footwork.course.feet.footprint,
@@ -58,13 +76,14 @@ impl Preview {
             angles: footwork.physical(&biped, &motion.angles),
             place: footwork.place(),
             speed: footwork.speed(),
-            weight: 1.0,
+            weight: footwork.course.gate.weight_on_bearing(),
         };
         let mut preview = Self {
-            foresight: Foresight::new(&biped, &footwork, com, &motion),
+            foresight: Foresight::new(&biped, &footwork, com, motion),
             correction: [CartState::zeros(); 2],
             body: WholeBody::new(&biped, &motion.angles),
             knots: [knot; 4],
+            stamp: 0,
             elapsed: 0.0,
             unreachable: false,
             biped: Arc::new(biped),
@@ -79,6 +98,16 @@ impl Preview {
         preview.knots[0] = Knot { angles: before, place, ..knot };
         preview.knots[1] = knot;
         preview
+    }
+
+    /// Goes on as `other`, a copy of this with something else asked of it, at the same instant.
+    pub fn follow(&mut self, other: &Self) {
+        *self = Self { elapsed: self.elapsed, ..other.clone() };
+    }
+
+    /// Another number whenever the plan has changed: copies of the same number are the same but for the instant.
+    pub fn stamp(&self) -> u64 {
+        self.stamp
     }
 
     /// See [`Course::admit`].
@@ -117,6 +146,7 @@ impl Preview {
     /// What is to come has changed: plays it anew. Not done for a stream that asks the same again and again.
     fn look_ahead(&mut self) {
         self.foresight.begin(&self.biped, &self.footwork);
+        self.stamp += 1;
     }
 
     /// What is in force, or will be when the walk goes on.
@@ -187,6 +217,11 @@ impl Preview {
         &self.footwork.course.walk
     }
 
+    /// The robot as a tree.
+    pub fn tree(&self) -> &dynamics::Tree {
+        &self.biped.tree
+    }
+
     fn place(&self) -> f64 {
         let [_, from, to, _] = &self.knots;
         (from.place + (to.place - from.place) * self.elapsed / KNOT).max(0.0)
@@ -214,6 +249,7 @@ impl Preview {
         };
         self.knots.rotate_left(1);
         self.knots[3] = knot;
+        self.stamp += 1;
     }
 }
 

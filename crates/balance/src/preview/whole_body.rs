@@ -117,8 +117,9 @@ impl WholeBody {
     }
 }
 
-/// The smaller of two lengths [m], rounded where they are about the same.
+/// The smaller of two lengths [m], rounded where they are about the same; twice continuously differentiable.
 fn soft_min(a: f64, b: f64) -> f64 {
-    const ROUNDING: f64 = 0.006;
-    0.5 * (a + b - ((a - b) * (a - b) + ROUNDING * ROUNDING).sqrt())
+    const ROUNDING: f64 = 0.015;
+    let near = (1.0 - (a - b).abs() / ROUNDING).max(0.0);
+    a.min(b) - near * near * near * ROUNDING / 6.0
 }
