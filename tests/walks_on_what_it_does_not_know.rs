@@ -1,4 +1,4 @@
-//! The floor, the masses, the load, the slope and the sensors' delay may be other than the controller believes.
+//! The floor's friction, the masses, the load and the sensors' delay may be other than the controller believes.
 //! `cargo run --release -p halfstep-survey -- variations` walks longer and by more commands.
 
 use controller::{Intent, Mode};
@@ -6,7 +6,7 @@ use gait::Request;
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::{Walking, controller_parameters, plant_parameters};
 use nalgebra::Vector3;
-use plant::{Parameters, Payload, Slope};
+use plant::{Parameters, Payload};
 
 const SECONDS: f64 = 8.0;
 
@@ -38,14 +38,6 @@ fn wrong_masses() {
 fn a_payload() {
     assert_walks("5 kg high", |plant| plant.payload = Payload { mass: 5.0, at: Vector3::new(0.0, 0.0, 0.5) });
     assert_walks("5 kg aside", |plant| plant.payload = Payload { mass: 5.0, at: Vector3::new(0.0, 0.15, 0.28) });
-}
-
-#[test]
-fn a_slope() {
-    let slope = 2_f64.to_radians();
-    assert_walks("uphill", |plant| plant.slope = Slope { ahead: slope, left: 0.0 });
-    assert_walks("downhill", |plant| plant.slope = Slope { ahead: -slope, left: 0.0 });
-    assert_walks("across", |plant| plant.slope = Slope { ahead: 0.0, left: slope });
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What the surveys ask for: requests over the whole box of DESIGN §5.3's command range and beyond, and their names.
+//! What the surveys ask for: requests over the whole box of the acceptance runs, more than is granted, and their names.
 
 use std::ops::RangeInclusive;
 
