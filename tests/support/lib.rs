@@ -1,7 +1,11 @@
 //! What several statements share: the committed robot, and random motions with a seed.
 
+#[cfg(feature = "command-line")]
 pub mod command_line;
+#[cfg(feature = "command-line")]
 pub mod paper;
+pub mod pushing;
+pub mod sequence;
 pub mod walking;
 
 use std::path::PathBuf;

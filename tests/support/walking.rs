@@ -28,7 +28,8 @@ pub fn plant_parameters() -> plant::Parameters {
     plant::Parameters::load(repository().join("config/plant.toml")).expect("the committed file loads")
 }
 
-/// A controller and a plant that walk together.
+/// A controller and a plant that walk together. A clone walks on by itself, to the same bits.
+#[derive(Clone, Debug)]
 pub struct Walking {
     /// The one.
     pub controller: Controller,
@@ -91,6 +92,38 @@ impl Walking {
         if let Some(mut inquiry) = self.controller.inquiry() {
             inquiry.settle();
             self.controller.give_back(inquiry);
+        }
+    }
+
+    /// One period in which something is requested.
+    pub fn ask(&mut self, request: Request, intent: Option<Intent>) -> TickReport {
+        self.tick(Some((&request, intent)))
+    }
+
+    /// Whether the robot lies, or the controller believes so: `report` is the last tick's.
+    pub fn has_fallen(&self, report: &TickReport) -> bool {
+        report.mode == Mode::Fallen || self.plant.truth().has_fallen()
+    }
+
+    /// Walks on until a tick is reported of which `reached` is true, for at most `seconds`, or until it falls.
+    ///
+    /// # Errors
+    /// The last report, if it fell or took longer.
+    pub fn walk_until(
+        &mut self,
+        seconds: f64,
+        mut reached: impl FnMut(&TickReport) -> bool,
+    ) -> Result<TickReport, Box<TickReport>> {
+        let end = self.time() + seconds;
+        loop {
+            let report = self.tick(None);
+            if self.has_fallen(&report) {
+                return Err(Box::new(report));
+            } else if reached(&report) {
+                return Ok(report);
+            } else if self.time() >= end {
+                return Err(Box::new(report));
+            }
         }
     }
 
