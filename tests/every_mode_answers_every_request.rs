@@ -9,15 +9,8 @@ use model::Wrench;
 use nalgebra::{Quaternion, Vector3};
 use plant::{SensorFault, SensorFaultKind};
 
-const MODES: [Mode; 7] = [
-    Mode::Standing,
-    Mode::Starting,
-    Mode::Walking,
-    Mode::Stopping,
-    Mode::Holding,
-    Mode::Faulted,
-    Mode::Fallen,
-];
+const MODES: [Mode; 7] =
+    [Mode::Standing, Mode::Starting, Mode::Walking, Mode::Stopping, Mode::Holding, Mode::Faulted, Mode::Fallen];
 
 /// What can be asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,8 +24,7 @@ enum Ask {
     SignOfLife,
 }
 
-const ASKS: [Ask; 7] =
-    [Ask::Walk, Ask::Stop, Ask::Hold, Ask::Reset, Ask::Values, Ask::WalkWithValues, Ask::SignOfLife];
+const ASKS: [Ask; 7] = [Ask::Walk, Ask::Stop, Ask::Hold, Ask::Reset, Ask::Values, Ask::WalkWithValues, Ask::SignOfLife];
 
 impl Ask {
     fn asked(self) -> Asked {
@@ -95,7 +87,7 @@ fn in_mode(mode: Mode) -> Walking {
         }
         Mode::Faulted => {
             let start = walking.time() + 0.1;
-            let fault = SensorFault { start, duration: 0.1, kind: SensorFaultKind::DropOut };
+            let fault = SensorFault { start, duration: 0.2, kind: SensorFaultKind::DropOut };
             walking.plant.disturbances.sensor_faults.push(fault);
             walking.walk(4.0);
         }

@@ -97,7 +97,9 @@ impl Sequence<'_> {
         let intent = self.any_stop();
         self.ask(Request::default(), Some(intent), "a stop")?;
         let began = self.walking.time();
-        self.until(TO_STAND_MAX, &format!("{intent:?}, not standing yet"), |report| report.mode == Mode::Holding)?;
+        self.until(TO_STAND_MAX, &format!("{intent:?}, not standing yet"), |report| {
+            matches!(report.mode, Mode::Standing | Mode::Holding)
+        })?;
         self.tally.stops += 1;
         self.tally.slowest_stop = self.tally.slowest_stop.max(self.walking.time() - began);
         self.wait(0.0, 3.0, "standing")

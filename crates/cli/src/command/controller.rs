@@ -40,9 +40,9 @@ impl Controller {
             parameters.sources.age_limit = None;
         }
         let fingerprint = robot.mechanism.fingerprint;
+        let begin = if self.runs.from_stand { controller::Controller::standing } else { controller::Controller::new };
         let mut controller =
-            controller::Controller::new(&robot.mechanism, robot.nominal, &parameters, Start::default())
-                .map_err(Failure::bad_input)?;
+            begin(&robot.mechanism, robot.nominal, &parameters, Start::default()).map_err(Failure::bad_input)?;
 
         let ControllerEnd { mut setpoints, measurements, requests, reports } =
             ControllerEnd::connect(&self.instance.instance()?, fingerprint)?;

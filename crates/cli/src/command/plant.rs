@@ -2,11 +2,14 @@
 
 use std::path::PathBuf;
 
+use balance::Preview;
+use gait::{Start, Walk};
+use model::Motion;
 use plant::Setpoint;
 use wire::PlantEnd;
 
 use super::{InstanceOption, LoopOptions, PartOptions, print};
-use crate::configuration::{ConfigOptions, Errors};
+use crate::configuration::{ConfigOptions, Errors, Robot};
 use crate::failure::{Failure, Outcome};
 use crate::interrupt::Interrupt;
 use crate::record;
@@ -45,7 +48,7 @@ impl Plant {
         let loaded = self.config.robot(&mut errors).zip(self.config.plant(&mut errors));
         let disturbances = ConfigOptions::disturbances(self.disturbances.as_deref(), &mut errors);
         let ((robot, parameters), disturbances) = errors.finish(loaded.zip(disturbances))?;
-        let start = robot.nominal.at(0.0);
+        let start = if self.runs.from_stand { self.stand(&robot)? } else { robot.nominal.at(0.0) };
         let period = PERIOD.as_secs_f64();
         let mut plant = plant::Plant::new(&robot.mechanism, &parameters, &start, period, self.seed);
         plant.disturbances = disturbances;
@@ -71,5 +74,15 @@ impl Plant {
         };
         print(json, &summary)?;
         Ok(Outcome::fine_if(run.fell_at.is_none()))
+    }
+
+    /// The posture at which the controller begins, too.
+    fn stand(&self, robot: &Robot) -> Result<Motion, Failure> {
+        let mut errors = Errors::default();
+        let loaded = self.config.controller(&mut errors);
+        let gait = errors.finish(loaded)?.gait;
+        let walk = Walk::new(robot.nominal.clone(), &robot.mechanism, &gait, Start::default());
+        let preview = Preview::standing(&robot.mechanism, walk.map_err(Failure::bad_input)?);
+        Ok(preview.physical_motion())
     }
 }

@@ -5,7 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use wire::{ConnectError, Instance, InstanceName, Leftovers, ObserverEnd, OperatorEnd, Verdict};
+use wire::{
+    ConnectError, Instance, InstanceName, Intent, Leftovers, ObserverEnd, OperatorEnd, Request, Source, Verdict,
+};
 
 use super::{LoopOptions, print, print_line, write_pictures};
 use crate::configuration::{ConfigOptions, Errors, Robot};
@@ -71,7 +73,11 @@ impl Walk {
         self.config.plant(&mut errors);
         ConfigOptions::disturbances(self.disturbances.as_deref(), &mut errors);
         let steps = self.steps(&mut errors);
-        let (robot, steps) = errors.finish(robot.zip(steps))?;
+        let (robot, mut steps) = errors.finish(robot.zip(steps))?;
+        if self.runs.from_stand {
+            let walk = Request { intent: Some(Intent::Walk), ..Request::by(Source::Script) };
+            steps.insert(0, Step { time: Some(Duration::ZERO), request: walk });
+        }
         let instance = match &self.instance {
             Some(name) => Instance::new(name.as_str())?,
             None => Instance::new(&format!("walk-{}", std::process::id()))?,
@@ -157,6 +163,9 @@ impl Walk {
         }
         if self.runs.lockstep {
             arguments.push("--lockstep".into());
+        }
+        if self.runs.from_stand {
+            arguments.push("--from-stand".into());
         }
         arguments
     }
