@@ -6,7 +6,7 @@ use controller::Mode;
 use halfstep_tests::walking::Walking;
 use plant::Disturbances;
 
-const FAULTS: [&str; 9] = [
+const FAULTS: [&str; 10] = [
     "kind = \"freeze\"",
     "kind = \"freeze\"\nvalues = \"orientation\"",
     "kind = \"nan\"",
@@ -14,6 +14,7 @@ const FAULTS: [&str; 9] = [
     "kind = \"spike\"\nvalues = \"angles\"\njoint = \"left_knee\"\nsize_deg = 300",
     "kind = \"spike\"\nvalues = \"feet\"\nsize_n = 500",
     "kind = \"spike\"\nvalues = \"angular_rate\"\nsize_deg_per_s = 1000",
+    "kind = \"spike\"\nvalues = \"orientation\"\nsize_deg = 90",
     "kind = \"drop_out\"",
     "kind = \"delay\"\ndelay_periods = 10",
 ];

@@ -1,7 +1,7 @@
 //! What the asked motion needs, by inverse dynamics: joint torques, ZMP, centre of mass.
 
 use dynamics::{NewtonEuler, SupportPolygon, Tree, zmp};
-use model::{JointVector, Mechanism, Mirror, Motion, Side};
+use model::{Joint, JointVector, Mechanism, Mirror, Motion, Side};
 use nalgebra::Vector2;
 
 use crate::CentreOfMass;
@@ -39,7 +39,7 @@ impl Plan {
             margin: 0.0,
             centre_of_mass: CentreOfMass::of_motion(tree, &kinematics, &JointVector::ZERO),
         };
-        plan.update(tree, mirror, &Motion::default(), false);
+        plan.update(tree, mirror, &Motion::default(), Vector2::zeros(), false);
         plan
     }
 
@@ -50,14 +50,27 @@ impl Plan {
 
     /// What `motion`, told in support coordinates, needs.
     ///
+    /// The floor may be a slope: `vertical` is how the vertical leans in axes of the sole (x and y of the unit vector).
+    /// Level coordinates then see the sole turned about the ankle's foot, which is what joints 1 and 2 are for.
+    ///
     /// On one foot that foot carries all. On both, they share what the ground gives as the ZMP lies between them; torques
     /// are linear in the share: they are those of standing on the one foot and on the other, mixed.
-    pub fn update(&mut self, tree: &Tree, mirror: &Mirror, motion: &Motion, on_both_feet: bool) {
+    pub fn update(
+        &mut self,
+        tree: &Tree,
+        mirror: &Mirror,
+        motion: &Motion,
+        vertical: Vector2<f64>,
+        on_both_feet: bool,
+    ) {
+        let mut motion = *motion;
+        motion.angles[Joint::FootRoll] = vertical.y;
+        motion.angles[Joint::FootPitch] = -vertical.x;
         let on_other = on_both_feet.then(|| {
             self.inverse.stand(tree, &motion.mirrored(mirror));
             mirror.apply(&self.inverse.torques)
         });
-        self.inverse.stand(tree, motion);
+        self.inverse.stand(tree, &motion);
         // A motion that needs no ground has its point infinitely far away; the last one stands for it.
         if let Some(point) = zmp(&self.inverse.ground) {
             self.zmp = point;

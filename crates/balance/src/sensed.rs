@@ -1,7 +1,11 @@
 //! What the robot senses, told in support coordinates.
 
+use dynamics::Kinematics;
 use model::{Joint, JointVector, Mirror, Side, Wrench};
 use nalgebra::Vector3;
+
+/// Where the inertial measurement unit is.
+pub(crate) const TRUNK: Joint = Joint::WaistRoll;
 
 /// A measurement as seen from the bearing foot; on the left foot everything is mirrored.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,6 +25,11 @@ pub struct Sensed {
 }
 
 impl Sensed {
+    /// The vertical over the bearing sole, in its axes: joints may give way, and soles tip or stand on a slope.
+    pub fn up_over_sole(&self, kinematics: &Kinematics) -> Vector3<f64> {
+        kinematics.rotation[TRUNK] * self.up_in_trunk
+    }
+
     /// Tells physical quantities as seen from the foot on `support`.
     ///
     /// * `feet` – wrenches on the right and on the left foot, in sole axes

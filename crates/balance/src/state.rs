@@ -1,10 +1,11 @@
 //! Where the centre of mass is and how it moves: from joints for the shape, from the IMU for the tilt of it all.
 
 use dynamics::{Kinematics, Tree};
-use model::{GRAVITY, Joint, JointVector};
+use model::{GRAVITY, JointVector};
 use nalgebra::{Vector2, Vector3};
 
 use crate::Sensed;
+use crate::sensed::TRUNK;
 
 /// The centre of mass against the bearing sole, in axes that are level.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,14 +25,12 @@ impl CentreOfMass {
     /// As sensed. Joints and drives give way, and the sole may tip: the IMU tells by how much the whole robot leans beyond
     /// what its joints say.
     pub fn sensed(tree: &Tree, kinematics: &Kinematics, sensed: &Sensed) -> Self {
-        const TRUNK: Joint = Joint::WaistRoll;
         let trunk_to_sole = &kinematics.rotation[TRUNK];
         let position = kinematics.com(tree);
         let (velocity, link_rates) = kinematics.com_velocity(tree, &sensed.rates);
 
         // The rotation that levels: small, and about a horizontal axis.
-        let up_in_sole = trunk_to_sole * sensed.up_in_trunk;
-        let levelling = up_in_sole.cross(&Vector3::z());
+        let levelling = sensed.up_over_sole(kinematics).cross(&Vector3::z());
         let sole_rate = trunk_to_sole * sensed.trunk_rate - link_rates[TRUNK];
         Self {
             position: position + levelling.cross(&position),

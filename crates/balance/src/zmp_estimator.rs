@@ -25,6 +25,8 @@ pub struct Ground {
     pub margin: f64,
     /// Vertical force on the bearing and on the swinging foot, filtered [N].
     pub loads: [f64; 2],
+    /// Whether the bearing and the swinging foot bear enough to count.
+    pub bears: [bool; 2],
 }
 
 impl ZmpEstimator {
@@ -50,12 +52,12 @@ impl ZmpEstimator {
         if bears[1] {
             total = total + told_from_origin(&feet[1], &swinging_sole);
         }
-        let Some(point) = zmp(&total) else { return Ground { zmp: None, margin: f64::NEG_INFINITY, loads } };
+        let Some(point) = zmp(&total) else { return Ground { zmp: None, margin: f64::NEG_INFINITY, loads, bears } };
 
         let right = self.corners.iter().filter(|_| bears[0]).map(|corner| corner.coords.xy());
         let left = self.corners.iter().filter(|_| bears[1]).map(|corner| (swinging_sole * corner).coords.xy());
         let margin = SupportPolygon::hull(right.chain(left)).margin(point);
-        Ground { zmp: Some(point), margin, loads }
+        Ground { zmp: Some(point), margin, loads, bears }
     }
 
     /// The other foot bears: the same wrenches, told from there.

@@ -7,6 +7,7 @@ use balance::{CentreOfMass, Feedback, Ground, Plan, Preview, Sensed, ZmpEstimato
 use dynamics::{Kinematics, Tree};
 use gait::{NominalTable, Start, Walk, WalkError};
 use model::{Mechanism, Motion, Side};
+use nalgebra::Vector2;
 
 use crate::mode::{Holding, Rising};
 use crate::watch::Watch;
@@ -14,6 +15,9 @@ use crate::{
     AddedAngles, Answer, Desk, Fault, Faults, Guard, Inquiry, Intent, Measurement, Mode, Parameters, Pattern, Setpoint,
     Sources, TickReport,
 };
+
+/// With the measured ZMP so far inside a sole, all of it is on the ground [m].
+const FLAT_MARGIN: f64 = 0.005;
 
 /// The state of the controller. Everything is made in [`Controller::new`]; a tick allocates nothing.
 #[derive(Clone, Debug)]
@@ -34,8 +38,6 @@ pub struct Controller {
     pub(crate) intent: Intent,
     /// What keeps the robot from going on until a reset.
     pub(crate) latched: Option<Fault>,
-    /// Whether the newest good measurement tells of a robot on its feet.
-    is_upright: bool,
     /// The stop of a pattern that cannot stand by itself.
     pub(crate) holding: Option<Holding>,
     /// The way back to a stand.
@@ -85,7 +87,7 @@ impl Controller {
     fn with_pattern(mechanism: &Mechanism, parameters: &Parameters, walk: &Walk, pattern: Pattern) -> Self {
         let tree = Tree::new(mechanism);
         let mut plan = Plan::new(mechanism, &tree, walk.mirror());
-        plan.update(&tree, walk.mirror(), &pattern.motion(), pattern.weight_on_bearing() < 1.0);
+        plan.update(&tree, walk.mirror(), &pattern.motion(), Vector2::zeros(), pattern.weight_on_bearing() < 1.0);
         let first = match pattern.half_step().support {
             Side::Right => pattern.motion().angles,
             Side::Left => walk.mirror().apply(&pattern.motion().angles),
@@ -96,14 +98,13 @@ impl Controller {
             watch: Watch::new(mechanism, parameters.watch),
             kinematics: Kinematics::default(),
             zmp_estimator: ZmpEstimator::new(mechanism, parameters.balance.zmp),
-            ground: Ground { zmp: None, margin: f64::NEG_INFINITY, loads: [0.0; 2] },
+            ground: Ground { zmp: None, margin: f64::NEG_INFINITY, loads: [0.0; 2], bears: [false; 2] },
             feedback: Feedback::new(mechanism, parameters.balance.feedback),
             guard: Guard::new(mechanism, &first),
             desk: Desk::Free(Box::new(Inquiry::new(forecaster, &rest))),
             rest,
             intent: Intent::Walk,
             latched: None,
-            is_upright: true,
             holding: None,
             rising: None,
             sources: Sources::new(parameters.sources),
@@ -193,7 +194,7 @@ impl Controller {
 
     /// Whether the newest good measurement is of now and tells of a robot on its feet.
     pub(crate) fn is_well(&self) -> bool {
-        self.is_upright && !self.watch.is_stale()
+        self.watch.is_upright() && !self.watch.is_stale()
     }
 
     /// Whether the walk plans what the joints do.
@@ -218,8 +219,7 @@ impl Controller {
             self.latch(Fault::MeasurementStale);
         }
         let (measurement, up_in_trunk) = good?;
-        self.is_upright = !self.watch.has_fallen(&up_in_trunk);
-        if !self.is_upright {
+        if self.watch.has_fallen() {
             faults.insert(Fault::Fallen);
             self.latch(Fault::Fallen);
         }
@@ -239,6 +239,10 @@ impl Controller {
             faults.insert(Fault::InTheAir);
             self.feedback.release();
             return None;
+        }
+        // A sole that bears alone, and not on an edge, lies flat: it leans as the floor does.
+        if self.ground.margin > FLAT_MARGIN && !self.ground.bears[1] {
+            self.pattern.sense_vertical(sensed.up_over_sole(&self.kinematics).xy(), dt);
         }
         Some(CentreOfMass::sensed(&self.tree, &self.kinematics, &sensed))
     }
@@ -263,7 +267,7 @@ impl Controller {
             self.pattern.motion()
         };
         let on_both_feet = self.pattern.weight_on_bearing() < 1.0;
-        self.plan.update(&self.tree, self.pattern.mirror(), &motion, on_both_feet);
+        self.plan.update(&self.tree, self.pattern.mirror(), &motion, self.pattern.vertical(), on_both_feet);
         motion + *self.feedback.offsets()
     }
 

@@ -4,6 +4,7 @@ use balance::Preview;
 use balance::preview::{Gate, Stance};
 use gait::{Admission, Command, HalfStep, Request, Walk};
 use model::{Mechanism, Mirror, Motion};
+use nalgebra::Vector2;
 
 /// How the modified half-step is kept in balance before any feedback.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,6 +105,21 @@ impl Pattern {
         match self {
             Pattern::Plain(walk) => walk.speed().state().value,
             Pattern::Preview(preview) => preview.speed(),
+        }
+    }
+
+    /// Absorbs how the vertical leans over the bearing sole, in support coordinates, `dt` seconds after the last time.
+    pub fn sense_vertical(&mut self, lean: Vector2<f64>, dt: f64) {
+        if let Pattern::Preview(preview) = self {
+            preview.sense_vertical(lean, dt);
+        }
+    }
+
+    /// How the vertical is taken to lean over the floor, in support coordinates; the plain sum knows level floors only.
+    pub fn vertical(&self) -> Vector2<f64> {
+        match self {
+            Pattern::Plain(_) => Vector2::zeros(),
+            Pattern::Preview(preview) => preview.vertical(),
         }
     }
 

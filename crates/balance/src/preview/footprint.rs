@@ -75,6 +75,11 @@ impl Footprint {
         self.mirrored(self.place.rotation.inverse() * (point - self.place.translation.vector))
     }
 
+    /// Tells a direction of the walk's coordinates in support coordinates.
+    pub fn direction_to_support(&self, direction: Vector2<f64>) -> Vector2<f64> {
+        self.mirrored(self.place.rotation.inverse() * direction)
+    }
+
     fn mirrored(&self, vector: Vector2<f64>) -> Vector2<f64> {
         match self.side {
             Side::Right => vector,

@@ -96,7 +96,7 @@ impl Forecaster {
         let (tree, mirror) = (preview.tree(), preview.walk().mirror());
         let (half_step, on_both_feet) = (preview.half_step(), preview.weight_on_bearing() < 1.0);
         let motion = preview.motion();
-        self.plan.update(tree, mirror, &motion, on_both_feet);
+        self.plan.update(tree, mirror, &motion, preview.vertical(), on_both_feet);
         let is_swinging = !on_both_feet && OFF_THE_SWAPS.contains(&half_step.progress);
         if is_swinging {
             *margin = margin.min(self.plan.margin);

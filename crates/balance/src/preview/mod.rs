@@ -8,6 +8,7 @@
 mod biped;
 mod cart_table;
 mod course;
+mod floor;
 mod footprint;
 mod footwork;
 mod forecast;
@@ -23,6 +24,7 @@ mod whole_body;
 pub use biped::Biped;
 pub use cart_table::{CartState, CartTable};
 pub use course::{Course, Feet};
+pub use floor::Floor;
 pub use footprint::{Footprint, SolePose};
 pub use footwork::Footwork;
 pub use forecast::{Forecast, ForecastParameters, Forecaster, Limit, Strain};

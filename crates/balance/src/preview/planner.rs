@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use dynamics::Kinematics;
 use gait::{Admission, Command, HalfStep, Request, Walk};
-use model::{JointVector, Mechanism, Motion, Side};
+use model::{GRAVITY, JointVector, Mechanism, Motion, Side};
 use nalgebra::Vector2;
 
-use crate::preview::{Biped, CartState, Course, Footprint, Footwork, Foresight, Gate, Stance, WholeBody};
+use crate::preview::{Biped, CartState, Course, Floor, Footprint, Footwork, Foresight, Gate, Stance, WholeBody};
 
 /// Time between knots [s].
 pub const KNOT: f64 = 0.01;
@@ -22,6 +22,8 @@ pub struct Preview {
     /// What the whole body needs besides the pendulum's plan.
     correction: [CartState; 2],
     body: WholeBody,
+    /// How the floor tilts.
+    floor: Floor,
     /// The last four knots, oldest first; now is between the second and the third.
     knots: [Knot; 4],
     /// Counts what was planned.
@@ -82,6 +84,7 @@ impl Preview {
             foresight: Foresight::new(&biped, &footwork, com, motion),
             correction: [CartState::zeros(); 2],
             body: WholeBody::new(&biped, &motion.angles),
+            floor: Floor::default(),
             knots: [knot; 4],
             stamp: 0,
             elapsed: 0.0,
@@ -102,7 +105,7 @@ impl Preview {
 
     /// Goes on as `other`, a copy of this with something else asked of it, at the same instant.
     pub fn follow(&mut self, other: &Self) {
-        *self = Self { elapsed: self.elapsed, ..other.clone() };
+        *self = Self { elapsed: self.elapsed, floor: self.floor, ..other.clone() };
     }
 
     /// Another number whenever the plan has changed: copies of the same number are the same but for the instant.
@@ -207,6 +210,20 @@ impl Preview {
         }
     }
 
+    /// Absorbs how the vertical leans over the bearing sole, in support coordinates, `dt` seconds after the last time.
+    pub fn sense_vertical(&mut self, lean: Vector2<f64>, dt: f64) {
+        // The newest knot is a little ahead: just before a swap it is told from the other foot.
+        if self.walk().half_step().index == self.half_step().index {
+            self.floor.update(self.footwork.course.feet.footprint.direction_to_walk(lean), dt);
+        }
+    }
+
+    /// How the vertical is taken to lean over the floor, in support coordinates: x and y of the unit vector [-].
+    pub fn vertical(&self) -> Vector2<f64> {
+        let newest = self.footwork.course.feet.footprint;
+        Footprint { side: self.half_step().support, ..newest }.direction_to_support(self.floor.lean())
+    }
+
     /// Whether a leg was too short at the newest knot, so that the posture before was kept.
     pub fn is_out_of_reach(&self) -> bool {
         self.unreachable
@@ -237,7 +254,8 @@ impl Preview {
             self.body.swap(biped);
         }
 
-        let com = self.foresight.com() + Vector2::new(self.correction[0].x, self.correction[1].x);
+        let uphill = self.floor.lean() * (biped.sway.height_over_gravity * GRAVITY);
+        let com = self.foresight.com() + Vector2::new(self.correction[0].x, self.correction[1].x) + uphill;
         let reached = self.body.reach(biped, &self.footwork.wanted(biped, com));
         self.unreachable = reached.is_err();
         let angles = reached.map_or(self.knots[3].angles, |angles| self.footwork.physical(biped, &angles));
