@@ -5,10 +5,12 @@
 
 pub mod command;
 pub mod configuration;
+pub mod engine;
 pub mod exchange;
 pub mod failure;
 pub mod inbox;
 pub mod interrupt;
+pub mod mjcf;
 pub mod operator;
 pub mod paper;
 pub mod picture;
