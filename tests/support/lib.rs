@@ -2,9 +2,12 @@
 
 pub mod command_line;
 pub mod paper;
+mod python_side;
 pub mod walking;
 
 use std::path::PathBuf;
+
+pub use python_side::python;
 
 use model::{Joint, JointVector, Mechanism, Motion, PerJoint};
 use rand::{Rng, SeedableRng, rngs::StdRng};

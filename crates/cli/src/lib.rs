@@ -16,6 +16,7 @@ pub mod paper;
 pub mod picture;
 pub mod process;
 pub mod progress;
+pub mod python_messages;
 pub mod record;
 pub mod run_controller;
 pub mod run_log;

@@ -9,6 +9,7 @@ use super::print_line;
 use crate::configuration::Errors;
 use crate::failure::{Failure, Outcome};
 use crate::mjcf::mjcf_text;
+use crate::python_messages::python_messages;
 use crate::urdf::urdf_text;
 
 /// Write the robot for other programs
@@ -41,6 +42,12 @@ enum Format {
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
+    /// The messages in shared memory as a Python module, on stdout or into a file
+    Python {
+        /// Where to; stdout if absent
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
 }
 
 impl Export {
@@ -57,6 +64,7 @@ impl Export {
                 let (mechanism, parameters) = errors.finish(mechanism.zip(parameters))?;
                 (mjcf_text(&mechanism, &parameters), out)
             }
+            Format::Python { out } => (python_messages(), out),
         };
         match out {
             None => print_line(text.trim_end())?,

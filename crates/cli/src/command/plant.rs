@@ -56,7 +56,7 @@ impl Plant {
             Engine::Rust => None,
             Engine::Mujoco => {
                 let setup = Setup::new(&robot.mechanism, &parameters, &disturbances, &start, self.seed);
-                Some(OutsideEngine::start(engine::prepare()?, &setup).map_err(Failure::new)?)
+                Some(OutsideEngine::start(engine::mujoco()?, &setup).map_err(Failure::new)?)
             }
         };
         plant.disturbances = disturbances;

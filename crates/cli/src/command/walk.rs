@@ -81,7 +81,7 @@ impl Walk {
             None => Instance::new(&format!("walk-{}", std::process::id()))?,
         };
         if self.plant == Engine::Mujoco {
-            engine::prepare()?;
+            engine::mujoco()?;
         }
         let folder = self.folder()?;
 

@@ -15,6 +15,8 @@ use crate::failure::Failure;
 
 const REQUIREMENTS: &str = include_str!("../../../../tools/mujoco_plant/requirements.txt");
 const PLANT: &str = include_str!("../../../../tools/mujoco_plant/plant.py");
+/// The file that says that the environment is complete.
+const READY: &str = "ready";
 /// Oldest Python that the packages run on.
 const PYTHON_MIN: (u32, u32) = (3, 10);
 /// How much of what a failed command says is told.
@@ -23,30 +25,50 @@ const LINES_TOLD: usize = 6;
 /// The command that runs the MuJoCo plant. Makes its environment if it is not there, and says so on stderr.
 ///
 /// # Errors
-/// No suitable Python, no folder to write to, or the packages cannot be installed; each says what to do.
-pub fn prepare() -> Result<Command, Failure> {
-    let cannot = |path: &Path, error| Failure::new(format!("{}: {error}", path.display()));
-    let folder = cache()?.join(format!("mujoco-{:016x}", fingerprint(REQUIREMENTS)));
-    fs::create_dir_all(&folder).map_err(|error| cannot(&folder, error))?;
-    let lock = folder.join("lock");
-    let locked = File::create(&lock).and_then(|file| file.lock().map(|()| file)).map_err(|e| cannot(&lock, e))?;
-
-    let ready = folder.join("ready");
-    let python = folder.join("bin/python");
-    if !ready.exists() {
-        install(&folder, &python)?;
-        fs::write(&ready, REQUIREMENTS).map_err(|error| cannot(&ready, error))?;
-    }
+/// As [`python`].
+pub fn mujoco() -> Result<Command, Failure> {
+    let mut command = python()?;
     // Named by its content: a walk with another version of it may be running.
-    let script = folder.join(format!("plant-{:016x}.py", fingerprint(PLANT)));
-    if !script.exists() {
-        fs::write(&script, PLANT).map_err(|error| cannot(&script, error))?;
+    let script = folder()?.join(format!("plant-{:016x}.py", fingerprint(PLANT)));
+    if fs::read_to_string(&script).ok().as_deref() != Some(PLANT) {
+        let unfinished = script.with_extension(std::process::id().to_string());
+        fs::write(&unfinished, PLANT)
+            .and_then(|()| fs::rename(&unfinished, &script))
+            .map_err(|error| Failure::new(format!("{}: {error}", script.display())))?;
     }
-    drop(locked);
-    let mut command = Command::new(python);
     // Nothing of the person's own Python settings shall change what is simulated.
     command.arg("-I").arg(script);
     Ok(command)
+}
+
+/// Python in the environment, which is made if it is not there.
+///
+/// # Errors
+/// No suitable Python, no folder to write to, or the packages cannot be installed; each says what to do.
+pub fn python() -> Result<Command, Failure> {
+    let cannot = |path: &Path, error| Failure::new(format!("{}: {error}", path.display()));
+    let folder = folder()?;
+    fs::create_dir_all(&folder).map_err(|error| cannot(&folder, error))?;
+    let lock = folder.join("lock");
+    let _locked = File::create(&lock).and_then(|file| file.lock().map(|()| file)).map_err(|e| cannot(&lock, e))?;
+
+    let python = folder.join("bin/python");
+    if !is_installed() {
+        install(&folder, &python)?;
+        let ready = folder.join(READY);
+        fs::write(&ready, REQUIREMENTS).map_err(|error| cannot(&ready, error))?;
+    }
+    Ok(Command::new(python))
+}
+
+/// Whether the environment is there.
+pub fn is_installed() -> bool {
+    folder().is_ok_and(|folder| folder.join(READY).exists())
+}
+
+/// Where the environment lies: one folder per list of packages.
+fn folder() -> Result<PathBuf, Failure> {
+    Ok(cache()?.join(format!("mujoco-{:016x}", fingerprint(REQUIREMENTS))))
 }
 
 /// Makes the environment.

@@ -11,7 +11,7 @@ mod record;
 
 use clap::ValueEnum;
 
-pub use environment::prepare;
+pub use environment::{is_installed, mujoco, python};
 pub use outside::{EngineError, OutsideEngine, Setup};
 
 /// Who computes the robot's physics.
