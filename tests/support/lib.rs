@@ -5,10 +5,14 @@ pub mod command_line;
 #[cfg(feature = "command-line")]
 pub mod paper;
 pub mod pushing;
+#[cfg(feature = "command-line")]
+mod python_side;
 pub mod sequence;
 pub mod walking;
 
 use std::path::PathBuf;
+
+pub use python_side::python;
 
 use model::{Joint, JointVector, Mechanism, Motion, PerJoint};
 use rand::{Rng, SeedableRng, rngs::StdRng};

@@ -9,7 +9,7 @@ use balance::{CentreOfMass, Feedback, FeedbackParameters, PaperLean, Plan, Sense
 use dynamics::{Kinematics, Tree};
 use gait::{Command, GaitParameters, NominalTable, Start, Walk, interpolate};
 use model::{Mechanism, Motion, Side};
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use plant::{Measurement, Plant, Setpoint};
 
 use halfstep_tests::walking::PERIOD;
@@ -48,7 +48,7 @@ impl Playback {
         let mut plant = Plant::new(mechanism, plant, &lean.lean(&walk.motion()), PERIOD, 0);
         let measured = plant.measure();
         let mut plan = Plan::new(mechanism, &tree, walk.mirror());
-        plan.update(&tree, walk.mirror(), &lean.lean(&walk.motion()), false);
+        plan.update(&tree, walk.mirror(), &lean.lean(&walk.motion()), Vector2::zeros(), false);
         Self {
             feedback: Feedback::new(mechanism, feedback),
             kinematics: Kinematics::default(),
@@ -84,7 +84,7 @@ impl Playback {
         }
 
         let leaning = self.walk.motion() + self.flipped();
-        self.plan.update(&self.tree, self.walk.mirror(), &leaning, false);
+        self.plan.update(&self.tree, self.walk.mirror(), &leaning, Vector2::zeros(), false);
         let asked = leaning + *self.feedback.offsets();
         let mirror = self.walk.mirror();
         let (asked, torques) = match self.walk.half_step().support {

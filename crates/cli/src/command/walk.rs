@@ -11,6 +11,7 @@ use wire::{
 
 use super::{LoopOptions, print, print_line, write_pictures};
 use crate::configuration::{ConfigOptions, Errors, Robot};
+use crate::engine::{self, Engine};
 use crate::failure::{Failure, Outcome};
 use crate::interrupt::Interrupt;
 use crate::operator::Operator;
@@ -42,6 +43,9 @@ pub struct Walk {
     /// Pushes and sensor faults, as in config/disturbances_demo.toml
     #[arg(long, value_name = "FILE")]
     disturbances: Option<PathBuf>,
+    /// Who simulates the robot: Halfstep itself, or MuJoCo, which is installed on first use
+    #[arg(long, value_name = "NAME", default_value = "rust")]
+    plant: Engine,
     /// Which robot, if others shall talk to it; a name of its own if absent
     #[arg(long, value_name = "NAME")]
     instance: Option<InstanceName>,
@@ -82,6 +86,9 @@ impl Walk {
             Some(name) => Instance::new(name.as_str())?,
             None => Instance::new(&format!("walk-{}", std::process::id()))?,
         };
+        if self.plant == Engine::Mujoco {
+            engine::mujoco()?;
+        }
         let folder = self.folder()?;
 
         let mut walking = self.start(&instance, &folder, &steps)?;
@@ -147,6 +154,7 @@ impl Walk {
         operator.send()?;
         let mut of_plant = self.arguments(instance, folder);
         of_plant.extend(["--end-when-fallen".into(), "--seed".into(), self.seed.to_string().into()]);
+        of_plant.extend(["--engine".into(), self.plant.name().into()]);
         if let Some(file) = &self.disturbances {
             of_plant.extend(["--disturbances".into(), file.into()]);
         }
@@ -186,6 +194,7 @@ impl Walk {
             requests: controller.requests,
             duration_s,
             seed: self.seed,
+            plant: self.plant.name(),
             instance: instance.name().to_string(),
             clock: match self.runs.clock() {
                 Clock::Realtime => "realtime",
