@@ -16,13 +16,17 @@ compensated as far as the voltage goes. In MuJoCo's terms, with stiffness k, dam
 of which `implicitfast` takes the derivative by q', as ours does.
 """
 
+import contextlib
 import json
+import os
 import sys
 
 import mujoco
 import numpy as np
 
 PROTOCOL = 1
+# stdout, past Python's buffer: a state is less than what a pipe takes at once.
+STATES = 1
 JOINTS = 20
 # angles, rates, feed-forward torques
 SETPOINT = 3 * JOINTS
@@ -126,15 +130,14 @@ def main():
     if told["protocol"] != PROTOCOL:
         sys.exit(f"halfstep speaks engine protocol {told['protocol']}, this MuJoCo plant {PROTOCOL}")
     robot = Robot(told)
-    setpoints, states = sys.stdin.buffer, sys.stdout.buffer
     hello = {"protocol": PROTOCOL, "engine": f"MuJoCo {mujoco.__version__}", "setpoint": SETPOINT, "state": STATE}
-    states.write(json.dumps(hello).encode() + b"\n")
-    states.flush()
-    while len(record := setpoints.read(8 * SETPOINT)) == 8 * SETPOINT:
-        robot.setpoint[:] = np.frombuffer(record, "<f8").reshape(3, JOINTS)
-        robot.advance()
-        states.write(robot.state.astype("<f8", copy=False).tobytes())
-        states.flush()
+    os.write(STATES, json.dumps(hello).encode() + b"\n")
+    # Nobody left to answer is as good an end as no more setpoints.
+    with contextlib.suppress(BrokenPipeError):
+        while len(record := sys.stdin.buffer.read(8 * SETPOINT)) == 8 * SETPOINT:
+            robot.setpoint[:] = np.frombuffer(record, "<f8").reshape(3, JOINTS)
+            robot.advance()
+            os.write(STATES, robot.state.astype("<f8", copy=False).tobytes())
 
 
 if __name__ == "__main__":

@@ -44,13 +44,13 @@ pub fn mjcf_text(mechanism: &Mechanism, parameters: &Parameters) -> String {
     out.line(r#"<flag autoreset="disable"/>"#);
     out.close("option");
     out.line(r#"<statistic center="0 0 0.8" extent="2"/>"#);
-    out.line(r#"<visual><global offwidth="1280" offheight="720"/><map znear="0.01" zfar="50"/></visual>"#);
+    out.line(r#"<visual><global offwidth="1280" offheight="720"/><headlight ambient="0.4 0.4 0.4"/></visual>"#);
     appearance(&mut out);
 
     out.open(r#"worldbody"#);
     out.line(r#"<light pos="0 0 4" dir="0 0 -1" directional="true"/>"#);
     out.line(format_args!(
-        r#"<geom name="floor" type="plane" size="0 0 0.5" contype="1" conaffinity="0" condim="3" {friction} {CONTACT} material="floor"/>"#
+        r#"<geom name="floor" type="plane" size="0 0 0.5" contype="1" conaffinity="0" condim="3" {friction} {CONTACT} material="floor" rgba="1 1 1 1"/>"#
     ));
     body(&mut out, mechanism, parameters, Mechanism::foot(Side::Right), &friction);
     out.close("worldbody");
@@ -83,7 +83,7 @@ fn appearance(out: &mut Lines) {
     );
     out.close("asset");
     out.open("default");
-    out.line(r#"<geom contype="0" conaffinity="0" rgba="0.35 0.45 0.6 1"/>"#);
+    out.line(r#"<geom contype="0" conaffinity="0" rgba="0.6 0.68 0.78 1"/>"#);
     out.close("default");
 }
 
@@ -92,8 +92,7 @@ fn body(out: &mut Lines, mechanism: &Mechanism, parameters: &Parameters, link: J
     let root = Mechanism::foot(Side::Right);
     let joints = joints_of(mechanism, link);
     let origin = |joint: &Joint| mechanism.links[*joint].origin;
-    // At zero angles all frames are parallel: origins add up along the massless links.
-    let place = if link == root { Vector3::zeros() } else { joints.iter().map(origin).sum() };
+    let place = if link == root { Vector3::zeros() } else { place_on_parent(mechanism, link) };
     out.open(format_args!(
         r#"body name="{}" pos="{}""#,
         link.link_name().unwrap_or(link.name()),
@@ -108,27 +107,26 @@ fn body(out: &mut Lines, mechanism: &Mechanism, parameters: &Parameters, link: J
         }
     }
     inertial(out, &mechanism.links[link].body);
-    match Side::BOTH.into_iter().find(|side| Mechanism::foot(*side) == link) {
-        Some(side) => foot(out, mechanism, side, friction),
-        None => {
-            let Body { com, .. } = mechanism.links[link].body;
-            let half = equivalent_sides(&mechanism.links[link].body) / 2.0;
-            out.line(format_args!(
-                r#"<geom type="box" pos="{}" size="{}"/>"#,
-                numbers(com.as_slice()),
-                numbers(half.as_slice())
-            ));
-        }
+    if let Some(side) = Side::BOTH.into_iter().find(|side| Mechanism::foot(*side) == link) {
+        foot(out, mechanism, side, friction);
+    } else {
+        appearance_of(out, mechanism, link);
     }
     if link == Joint::WaistRoll {
         out.line(r#"<site name="imu"/>"#);
         payload(out, parameters);
     }
-    let carried = Joint::ALL.into_iter().filter(|joint| *joint != link && mechanism.links[*joint].body.mass > 0.0);
-    for child in carried.filter(|child| mechanism.links[joints_of(mechanism, *child)[0]].parent == Some(link)) {
+    for child in carried_by(mechanism, link) {
         body(out, mechanism, parameters, child, friction);
     }
     out.close("body");
+}
+
+/// The links that weigh something and are mounted on a link, at most by massless ones.
+fn carried_by(mechanism: &Mechanism, link: Joint) -> impl Iterator<Item = Joint> {
+    let weighs = |joint: &Joint| mechanism.links[*joint].body.mass > 0.0;
+    let hangs_on = move |joint: &Joint| mechanism.links[joints_of(mechanism, *joint)[0]].parent == Some(link);
+    Joint::ALL.into_iter().filter(weighs).filter(hangs_on)
 }
 
 /// The joints that lead to a link from the next link below it that weighs something, the lowest first.
@@ -140,6 +138,12 @@ fn joints_of(mechanism: &Mechanism, link: Joint) -> Vec<Joint> {
         joints.insert(0, parent);
     }
     joints
+}
+
+/// Where a link's frame sits in that of the body that carries it: at zero angles all frames are parallel, and origins add up
+/// along the massless links.
+fn place_on_parent(mechanism: &Mechanism, link: Joint) -> Vector3<f64> {
+    joints_of(mechanism, link).iter().map(|joint| mechanism.links[*joint].origin).sum()
 }
 
 fn hinge(out: &mut Lines, mechanism: &Mechanism, joint: Joint, place: Vector3<f64>) {
@@ -163,6 +167,25 @@ fn inertial(out: &mut Lines, body: &Body) {
     ));
 }
 
+/// For the eye: rods to the joints of what the link carries, and the box of its mass and moments where that is nothing, or
+/// where several limbs meet.
+fn appearance_of(out: &mut Lines, mechanism: &Mechanism, link: Joint) {
+    let carried: Vec<_> = carried_by(mechanism, link).collect();
+    for child in &carried {
+        let end = place_on_parent(mechanism, *child);
+        out.line(format_args!(r#"<geom type="capsule" fromto="0 0 0 {}" size="0.045"/>"#, numbers(end.as_slice())));
+    }
+    if carried.len() != 1 {
+        let Body { com, .. } = mechanism.links[link].body;
+        let half = equivalent_sides(&mechanism.links[link].body) / 2.0;
+        out.line(format_args!(
+            r#"<geom type="box" pos="{}" size="{}"/>"#,
+            numbers(com.as_slice()),
+            numbers(half.as_slice())
+        ));
+    }
+}
+
 /// The foot as a box on its sole, half as high as the ankle.
 fn foot(out: &mut Lines, mechanism: &Mechanism, side: Side, friction: &str) {
     let sole = mechanism.sole;
@@ -172,7 +195,7 @@ fn foot(out: &mut Lines, mechanism: &Mechanism, side: Side, friction: &str) {
     let centre = at + Vector3::new((sole.ahead - sole.behind) / 2.0, 0.0, height / 2.0);
     let name = side_name(side);
     out.line(format_args!(
-        r#"<geom name="{name}_foot" type="box" pos="{}" size="{}" contype="0" conaffinity="1" condim="3" {friction} {CONTACT} rgba="0.2 0.25 0.35 1"/>"#,
+        r#"<geom name="{name}_foot" type="box" pos="{}" size="{}" contype="0" conaffinity="1" condim="3" {friction} {CONTACT} rgba="0.85 0.5 0.25 1"/>"#,
         numbers(centre.as_slice()),
         numbers(half.as_slice())
     ));
@@ -248,5 +271,74 @@ impl Lines {
     fn close(&mut self, name: &str) {
         self.depth -= 1;
         self.line(format_args!("</{name}>"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+    use plant::{Payload, Slope};
+
+    use super::*;
+
+    fn mechanism() -> Mechanism {
+        Mechanism::load(format!("{}/../../config/mechanism.toml", env!("CARGO_MANIFEST_DIR")))
+            .unwrap_or_else(|errors| panic!("{errors}"))
+    }
+
+    /// The values of an attribute, wherever it stands.
+    fn values<'t>(text: &'t str, attribute: &str) -> Vec<&'t str> {
+        let from = format!(" {attribute}=\"");
+        text.split(&from).skip(1).filter_map(|rest| rest.split('"').next()).collect()
+    }
+
+    #[test]
+    fn it_weighs_what_the_robot_weighs() {
+        let mechanism = mechanism();
+        let text = mjcf_text(&mechanism, &Parameters::default());
+        let mass: f64 = values(&text, "mass").iter().map(|mass| mass.parse::<f64>().unwrap()).sum();
+        assert!((mass - mechanism.mass()).abs() < 1e-12, "{mass}");
+        assert_eq!(values(&text, "mass").len(), 12, "no massless bodies");
+    }
+
+    #[test]
+    fn every_powered_joint_is_there_once_and_driven() {
+        let text = mjcf_text(&mechanism(), &Parameters::default());
+        for joint in Joint::ALL {
+            let count = |tag: &str| text.matches(&format!("<{tag} name=\"{}\"", joint.name())).count();
+            let expected = usize::from(joint.is_powered());
+            assert_eq!((count("joint"), count("motor")), (expected, expected), "{}", joint.name());
+        }
+    }
+
+    #[test]
+    fn every_element_is_closed() {
+        let text = mjcf_text(&mechanism(), &Parameters::default());
+        let mut open = Vec::new();
+        for line in text.lines().map(str::trim) {
+            let name = line.trim_matches(['<', '>', '/']).split([' ', '>']).next().unwrap();
+            match (line.starts_with("</"), line.contains("/>") || line.contains("</")) {
+                (true, _) => assert_eq!(open.pop(), Some(name)),
+                (false, true) => {}
+                (false, false) => open.push(name),
+            }
+        }
+        assert_eq!(open, Vec::<&str>::new());
+    }
+
+    #[test]
+    fn the_floor_is_the_plants() {
+        let parameters = Parameters {
+            slope: Slope { ahead: 0.1, left: 0.0 },
+            payload: Payload { mass: 5.0, at: Vector3::new(0.0, 0.0, 0.28) },
+            steps_per_period: 2,
+            ..Parameters::default()
+        };
+        let text = mjcf_text(&mechanism(), &parameters);
+        assert_eq!(values(&text, "timestep"), ["0.0005"]);
+        assert!(values(&text, "friction").iter().all(|friction| friction.starts_with("0.8 ")));
+        let gravity: Vec<f64> = values(&text, "gravity")[0].split(' ').map(|number| number.parse().unwrap()).collect();
+        assert!((gravity[0] + 9.80665 * 0.1_f64.sin()).abs() < 1e-12, "{gravity:?}");
+        assert!(text.contains(r#"<body name="payload" pos="0 0 0.28">"#));
     }
 }

@@ -18,7 +18,7 @@ const PLANT: &str = include_str!("../../../../tools/mujoco_plant/plant.py");
 /// The file that says that the environment is complete.
 const READY: &str = "ready";
 /// Oldest Python that the packages run on.
-const PYTHON_MIN: (u32, u32) = (3, 10);
+const PYTHON_MIN: (u32, u32) = (3, 11);
 /// How much of what a failed command says is told.
 const LINES_TOLD: usize = 6;
 
@@ -75,20 +75,21 @@ fn folder() -> Result<PathBuf, Failure> {
 fn install(folder: &Path, python: &Path) -> Result<(), Failure> {
     let system = system_python()?;
     eprintln!("MuJoCo's first use: making a Python environment in {}", folder.display());
+    let packages: Vec<_> = REQUIREMENTS.split_whitespace().collect();
     let bar = ProgressBar::new_spinner();
     bar.enable_steady_tick(Duration::from_millis(100));
 
     bar.set_message("creating the environment");
     let made = run(Command::new(&system).args(["-m", "venv"]).arg(folder))?;
     if !made.status.success() {
+        bar.finish_and_clear();
         let said = last_lines(&made);
         return Err(Failure::new(format!(
             "cannot make a Python environment with `{system} -m venv`: {said}\nOn Debian it needs the package \
              python3-venv. `--plant rust` needs no Python."
         )));
     }
-    let packages: Vec<_> = REQUIREMENTS.split_whitespace().collect();
-    bar.set_message(format!("installing {} (about 40 MB, once)", packages.join(", ")));
+    bar.set_message(format!("installing {} (about 60 MB, once)", packages.join(", ")));
     let pip = ["-m", "pip", "install", "--disable-pip-version-check", "--no-input"];
     let installed = run(Command::new(python).args(pip).args(&packages))?;
     bar.finish_and_clear();
@@ -119,7 +120,8 @@ fn system_python() -> Result<String, Failure> {
     let mut numbers = told.split(' ').map(|number| number.parse::<u32>().unwrap_or(0));
     let version = (numbers.next().unwrap_or(0), numbers.next().unwrap_or(0));
     if version < PYTHON_MIN {
-        return Err(Failure::new(format!("`{program}` is Python {}. {wanted}", told.replace(' ', "."))));
+        let is = if version.0 == 0 { "no Python".to_owned() } else { format!("Python {}.{}", version.0, version.1) };
+        return Err(Failure::new(format!("`{program}` is {is}. {wanted}")));
     }
     Ok(program)
 }
