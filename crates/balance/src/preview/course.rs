@@ -2,7 +2,7 @@
 
 use dynamics::Kinematics;
 use gait::{Admission, Command, Request, Verdict, Walk};
-use model::Joint;
+use model::{Joint, Mechanism, Side};
 use nalgebra::{Vector2, Vector3};
 
 use crate::preview::{Biped, Footprint, Gate, SolePose, Stance};
@@ -122,7 +122,9 @@ impl Course {
 
     /// The swinging sole of the modified half-step at a progress.
     pub fn swinging_sole(&self, biped: &Biped, progress: f64) -> SolePose {
-        SolePose::swinging(&biped.mechanism, &Kinematics::standing(&biped.tree, &self.walk.motion_at(progress).angles))
+        let angles = self.walk.motion_at(progress).angles;
+        let kinematics = Kinematics::standing_up_to(&biped.tree, &angles, Mechanism::foot(Side::Left));
+        SolePose::swinging(&biped.mechanism, &kinematics)
     }
 }
 

@@ -44,6 +44,10 @@ impl Outlook {
     /// The sum of what is wanted, each knot times its gain, along both axes of the walk frame.
     pub fn weighed(&self, cart: &CartTable) -> Vector2<f64> {
         let (later, sooner) = self.wanted.split_at(self.next);
-        sooner.iter().chain(later).enumerate().map(|(ahead, wanted)| wanted * cart.gain(ahead)).sum()
+        let (soon, late) = cart.gains().split_at(sooner.len());
+        let weigh = |wanted: &[Vector2<f64>], gains: &[f64]| -> Vector2<f64> {
+            wanted.iter().zip(gains).map(|(wanted, gain)| wanted * *gain).sum()
+        };
+        weigh(sooner, soon) + weigh(later, late)
     }
 }

@@ -255,8 +255,9 @@ impl Preview {
         }
 
         let uphill = self.floor.lean() * (biped.sway.height_over_gravity * GRAVITY);
-        let com = self.foresight.com() + Vector2::new(self.correction[0].x, self.correction[1].x) + uphill;
-        let reached = self.body.reach(biped, &self.footwork.wanted(biped, com));
+        let correction = Vector2::new(self.correction[0].x, self.correction[1].x) + uphill;
+        let footprint = &self.footwork.course.feet.footprint;
+        let reached = self.body.reach(biped, &self.foresight.wanted(footprint, correction));
         self.unreachable = reached.is_err();
         let angles = reached.map_or(self.knots[3].angles, |angles| self.footwork.physical(biped, &angles));
         let knot = Knot {
