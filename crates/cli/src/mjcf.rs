@@ -9,9 +9,9 @@
 //!
 //! # Contact
 //!
-//! MuJoCo's contact is a critically damped spring in units of time, whatever the mass on it. [`CONTACT`] makes it as
+//! MuJoCo's contact is a spring in units of time, whatever the mass on it. The one chosen here is critically damped, as
 //! quick as the springs of `config/plant.toml` are under the robot's weight (four corners of 1e6 N/m under 73 kg ring at
-//! 234 rad/s, 1/234 s = 4.3 ms) and nearly all constraint: a standing sole sinks in by a few micrometres. Friction is a
+//! 234 rad/s, 1/234 s = 4.3 ms), and nearly all constraint: a standing sole sinks in by a few micrometres. Friction is a
 //! cone (`elliptic`), a tenth as soft as the normal direction (`impratio`), so that a loaded sole does not creep.
 
 use std::fmt::Write;
