@@ -12,6 +12,7 @@ pub mod walking;
 
 use std::path::PathBuf;
 
+#[cfg(feature = "command-line")]
 pub use python_side::python;
 
 use model::{Joint, JointVector, Mechanism, Motion, PerJoint};
