@@ -119,11 +119,13 @@ fn and_silence_ends_the_walk() {
 #[test]
 fn and_a_fallen_robot_is_not_moved() {
     let mut controller = controller();
-    let lying = Measurement { orientation: Quaternion::new(0.5_f64.sqrt(), 0.0, 0.5_f64.sqrt(), 0.0), ..good(1) };
-    let first = controller.tick(PERIOD, Some(&lying));
-    assert_eq!(first.mode, Mode::Fallen);
+    let orientation = Quaternion::new(0.5_f64.sqrt(), 0.0, 0.5_f64.sqrt(), 0.0);
+    let mut lie = |tick| controller.tick(PERIOD, Some(&Measurement { orientation, ..good(tick) }));
+    let fallen_after = (0..100).find(|tick| lie(*tick).mode == Mode::Fallen);
+    assert!(fallen_after.is_some_and(|tick| (45..60).contains(&tick)), "believed after {fallen_after:?} periods");
+    let first = lie(100);
     assert!(first.faults.contains(Fault::Fallen));
-    for tick in 2..50 {
+    for tick in 101..150 {
         let report = controller.tick(PERIOD, Some(&good(tick)));
         assert_eq!((report.mode, report.setpoint), (Mode::Fallen, first.setpoint));
     }

@@ -38,6 +38,8 @@ pub struct Preview {
 struct Knot {
     /// Physical joints.
     angles: JointVector,
+    /// The bearing foot.
+    footprint: Footprint,
     /// Half-steps since the beginning, with their progress.
     place: f64,
     speed: f64,
@@ -76,6 +78,7 @@ impl Preview {
         );
         let knot = Knot {
             angles: footwork.physical(&biped, &motion.angles),
+            footprint: footwork.course.feet.footprint,
             place: footwork.place(),
             speed: footwork.speed(),
             weight: footwork.course.gate.weight_on_bearing(),
@@ -212,16 +215,18 @@ impl Preview {
 
     /// Absorbs how the vertical leans over the bearing sole, in support coordinates, `dt` seconds after the last time.
     pub fn sense_vertical(&mut self, lean: Vector2<f64>, dt: f64) {
-        // The newest knot is a little ahead: just before a swap it is told from the other foot.
-        if self.walk().half_step().index == self.half_step().index {
-            self.floor.update(self.footwork.course.feet.footprint.direction_to_walk(lean), dt);
-        }
+        self.floor.update(self.footprint().direction_to_walk(lean), dt);
     }
 
     /// How the vertical is taken to lean over the floor, in support coordinates: x and y of the unit vector [-].
     pub fn vertical(&self) -> Vector2<f64> {
-        let newest = self.footwork.course.feet.footprint;
-        Footprint { side: self.half_step().support, ..newest }.direction_to_support(self.floor.lean())
+        self.footprint().direction_to_support(self.floor.lean())
+    }
+
+    /// The foot that bears now.
+    fn footprint(&self) -> &Footprint {
+        let [_, from, to, _] = &self.knots;
+        if self.half_step().support == from.footprint.side { &from.footprint } else { &to.footprint }
     }
 
     /// Whether a leg was too short at the newest knot, so that the posture before was kept.
@@ -262,6 +267,7 @@ impl Preview {
         let angles = reached.map_or(self.knots[3].angles, |angles| self.footwork.physical(biped, &angles));
         let knot = Knot {
             angles,
+            footprint: self.footwork.course.feet.footprint,
             place: self.footwork.place(),
             speed: self.footwork.speed(),
             weight: self.footwork.course.gate.weight_on_bearing(),
