@@ -43,7 +43,7 @@ fn alone() {
 
 #[test]
 fn beyond_and_together() {
-    let beyond = [(0.5, 1.5), (-30_f64, 30_f64), (-8_f64, 12_f64)];
+    let beyond = [(0.4, 1.7), (-40_f64, 40_f64), (-12_f64, 16_f64)];
     for corner in 0..8 {
         let pick = |axis: usize| if corner >> axis & 1 == 0 { beyond[axis].0 } else { beyond[axis].1 };
         let request =
