@@ -32,7 +32,7 @@ fn controller(criterion: &mut Criterion) {
     group.bench_function("tick", |bencher| {
         bencher.iter(|| {
             measurement.tick += 1;
-            walking.tick(1e-3, Some(black_box(&measurement)), None)
+            walking.tick(1e-3, Some(black_box(&measurement)))
         });
     });
 

@@ -114,6 +114,6 @@ fn two_processes_are_disturbed_alike() {
         log.lines().skip(1).filter(is_stale).count()
     };
     assert_eq!(stale("quiet"), 0);
-    walk("dropped", "[[sensor_fault]]\nat_s = 1\nlasts_s = 0.1\nkind = \"drop_out\"");
-    assert!((70..90).contains(&stale("dropped")), "of 100 ms, 20 ms are borne: {}", stale("dropped"));
+    walk("dropped", "[[sensor_fault]]\nat_s = 1\nlasts_s = 0.3\nkind = \"drop_out\"");
+    assert!((190..210).contains(&stale("dropped")), "of 300 ms, 100 ms are borne: {}", stale("dropped"));
 }

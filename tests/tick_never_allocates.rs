@@ -59,7 +59,7 @@ fn whatever_happens() {
             walking.tick(request);
         }
         for _ in 0..100 {
-            walking.controller.tick(1e-3, None, None);
+            walking.controller.tick(1e-3, None);
         }
     });
     assert_eq!(count, 0, "in 6100 ticks of controller and plant");

@@ -60,6 +60,11 @@ impl CommandLine {
         Self { binary: binary.into(), folder, instance, outputs: AtomicU32::new(0), _leftovers: leftovers }
     }
 
+    /// The instance's name.
+    pub fn instance(&self) -> &str {
+        self.instance.name().as_str()
+    }
+
     /// The folder.
     pub fn folder(&self) -> &Path {
         self.folder.path()

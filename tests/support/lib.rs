@@ -1,10 +1,19 @@
 //! What several statements share: the committed robot, and random motions with a seed.
 
+#[cfg(feature = "command-line")]
 pub mod command_line;
+#[cfg(feature = "command-line")]
 pub mod paper;
+pub mod pushing;
+#[cfg(feature = "command-line")]
+mod python_side;
+pub mod sequence;
 pub mod walking;
 
 use std::path::PathBuf;
+
+#[cfg(feature = "command-line")]
+pub use python_side::python;
 
 use model::{Joint, JointVector, Mechanism, Motion, PerJoint};
 use rand::{Rng, SeedableRng, rngs::StdRng};

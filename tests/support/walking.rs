@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use controller::{Controller, Intent, Measurement, Mode, TickReport};
+use controller::{Asked, Controller, Intent, Lasting, Measurement, Mode, Source, TickReport};
 use gait::{NominalTable, Request, Start, Walk};
 use model::Mechanism;
 use plant::{Plant, Setpoint, Truth};
@@ -28,8 +28,8 @@ pub fn plant_parameters() -> plant::Parameters {
     plant::Parameters::load(repository().join("config/plant.toml")).expect("the committed file loads")
 }
 
-/// A controller and a plant that walk together.
-#[derive(Clone)]
+/// A controller and a plant that walk together. A clone walks on by itself, to the same bits.
+#[derive(Clone, Debug)]
 pub struct Walking {
     /// The one.
     pub controller: Controller,
@@ -63,12 +63,68 @@ impl Walking {
         Self { controller, plant, measured, tick: 0 }
     }
 
-    /// One period of both.
+    /// One period of both, with a single request of a person.
     pub fn tick(&mut self, request: Option<(&Request, Option<Intent>)>) -> TickReport {
-        let report = self.controller.tick(PERIOD, Some(&self.measured), request);
+        let asked = request.map(|(request, intent)| Asked {
+            request: *request,
+            intent,
+            source: Source::Console,
+            lasting: Lasting::UntilChanged,
+        });
+        self.tick_with(asked.as_ref())
+    }
+
+    /// One period of both, with what somebody asks.
+    pub fn tick_with(&mut self, asked: Option<&Asked>) -> TickReport {
+        self.settle();
+        if let Some(asked) = asked {
+            assert!(self.controller.is_free(), "one request per tick");
+            self.controller.ask(asked);
+            self.settle();
+        }
+        let report = self.controller.tick(PERIOD, Some(&self.measured));
         self.tick += 1;
         self.measured = sensed(&self.plant.step(&setpoint(&report)));
         report
+    }
+
+    fn settle(&mut self) {
+        if let Some(mut inquiry) = self.controller.inquiry() {
+            inquiry.settle();
+            self.controller.give_back(inquiry);
+        }
+    }
+
+    /// One period in which something is requested.
+    pub fn ask(&mut self, request: Request, intent: Option<Intent>) -> TickReport {
+        self.tick(Some((&request, intent)))
+    }
+
+    /// Whether the robot lies, or the controller believes so: `report` is the last tick's.
+    pub fn has_fallen(&self, report: &TickReport) -> bool {
+        report.mode == Mode::Fallen || self.plant.truth().has_fallen()
+    }
+
+    /// Walks on until a tick is reported of which `reached` is true, for at most `seconds`, or until it falls.
+    ///
+    /// # Errors
+    /// The last report, if it fell or took longer.
+    pub fn walk_until(
+        &mut self,
+        seconds: f64,
+        mut reached: impl FnMut(&TickReport) -> bool,
+    ) -> Result<TickReport, Box<TickReport>> {
+        let end = self.time() + seconds;
+        loop {
+            let report = self.tick(None);
+            if self.has_fallen(&report) {
+                return Err(Box::new(report));
+            } else if reached(&report) {
+                return Ok(report);
+            } else if self.time() >= end {
+                return Err(Box::new(report));
+            }
+        }
     }
 
     /// Walks on for `seconds`, or until it falls: the truth at the end.

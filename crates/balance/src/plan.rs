@@ -58,6 +58,11 @@ impl Plan {
         Vector2::new(up.y, -up.x)
     }
 
+    /// Where every link is.
+    pub fn kinematics(&self) -> &dynamics::Kinematics {
+        &self.inverse.kinematics
+    }
+
     /// What `motion`, told in support coordinates, needs.
     ///
     /// On a slope joints 1 and 2 say how the sole lies in level coordinates.

@@ -1,6 +1,6 @@
 //! The inbox: requests that wait for their tick, and their answers.
 
-use controller::{Intent, TickReport};
+use controller::{Asked, TickReport};
 use serde::{Deserialize, Serialize};
 use wire::{Answer, Granted, Reason, Reply, RequestMessage, RequestServer, Verdict};
 
@@ -20,19 +20,17 @@ pub struct Inbox {
 
 struct Waiting {
     not_before: u64,
-    asked: Asked,
+    due: Due,
 }
 
-/// A request whose tick has come.
-pub struct Asked {
-    /// For the gait.
-    pub request: gait::Request,
-    /// For the controller.
-    pub intent: Option<Intent>,
+/// A request whose tick has come. Its source is heard then, not when it was sent.
+pub struct Due {
+    /// What is asked.
+    pub asked: Asked,
     answer: Answer,
 }
 
-/// How many requests were answered how.
+/// How many requests were answered how. A stream's signs of life are none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Tally {
     /// As asked.
@@ -59,34 +57,38 @@ impl Inbox {
     }
 
     fn take(&mut self, message: &RequestMessage, answer: Answer) {
-        let (not_before, (request, intent)) = match exchange::request::for_controller(message) {
+        let (not_before, asked) = match exchange::request::for_controller(message) {
             Ok(asked) => asked,
             Err(reason) => return self.refuse(answer, reason),
         };
         let place = self.waiting.partition_point(|waiting| waiting.not_before <= not_before);
-        let waiting = Waiting { not_before, asked: Asked { request, intent, answer } };
+        let waiting = Waiting { not_before, due: Due { asked, answer } };
         if let Err(waiting) = self.waiting.insert(place, waiting) {
-            self.refuse(waiting.asked.answer, Reason::QueueFull);
+            self.refuse(waiting.due.answer, Reason::QueueFull);
         }
     }
 
     /// The one request that is due at a tick and has waited longest for it.
-    pub fn due(&mut self, tick: u64) -> Option<Asked> {
+    pub fn due(&mut self, tick: u64) -> Option<Due> {
         let is_due = self.waiting.first().is_some_and(|first| first.not_before <= tick);
-        is_due.then(|| self.waiting.remove(0).asked)
+        is_due.then(|| self.waiting.remove(0).due)
     }
 
     /// Answers a request with what the tick made of it, and notes what is in force.
-    pub fn answer(&mut self, asked: Option<Asked>, report: &TickReport) {
+    pub fn answer(&mut self, due: Option<Due>, report: &TickReport) {
         let (half_step, granted) = &mut self.in_force;
         *half_step = report.half_step.index;
         granted.turn = report.command.turn;
         granted.speed = report.command.speed;
         granted.extension = report.command.extension;
-        if let (Some(asked), Some(answer)) = (asked, &report.answer) {
+        if let (Some(due), Some(answer)) = (due, &report.answer) {
             let reply = exchange::reply::reply(answer);
             granted.intent = reply.granted.intent;
-            self.reply(asked.answer, &reply);
+            if !due.asked.is_empty() {
+                self.tally.count(reply.verdict);
+            }
+            // Whether the operator is still there to hear it changes nothing.
+            due.answer.reply(&(&reply).into());
         }
     }
 
@@ -95,23 +97,24 @@ impl Inbox {
         let tally = self.tally;
         self.collect();
         while let Some(waiting) = self.waiting.pop() {
-            self.refuse(waiting.asked.answer, Reason::ShuttingDown);
+            self.refuse(waiting.due.answer, Reason::ShuttingDown);
         }
         tally
     }
 
     fn refuse(&mut self, answer: Answer, reason: Reason) {
         let (effect_half_step, granted) = self.in_force;
-        self.reply(answer, &Reply { verdict: Verdict::Refused, reason, effect_half_step, granted });
+        self.tally.count(Verdict::Refused);
+        answer.reply(&(&Reply::refused(reason, effect_half_step, granted)).into());
     }
+}
 
-    fn reply(&mut self, answer: Answer, reply: &Reply) {
-        match reply.verdict {
-            Verdict::Accepted => self.tally.accepted += 1,
-            Verdict::Limited => self.tally.limited += 1,
-            Verdict::Refused => self.tally.refused += 1,
+impl Tally {
+    fn count(&mut self, verdict: Verdict) {
+        match verdict {
+            Verdict::Accepted => self.accepted += 1,
+            Verdict::Limited => self.limited += 1,
+            Verdict::Refused => self.refused += 1,
         }
-        // Whether the operator is still there to hear it changes nothing.
-        answer.reply(&reply.into());
     }
 }

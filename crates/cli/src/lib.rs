@@ -3,17 +3,21 @@
 //! One command per file in [`command`]; the two loops are [`run_controller`] and [`run_plant`]. The crates that these tie
 //! together do not know each other: what one says is put into the other's words in [`exchange`].
 
+pub mod advisor;
 pub mod command;
 pub mod configuration;
+pub mod engine;
 pub mod exchange;
 pub mod failure;
 pub mod inbox;
 pub mod interrupt;
+pub mod mjcf;
 pub mod operator;
 pub mod paper;
 pub mod picture;
 pub mod process;
 pub mod progress;
+pub mod python_messages;
 pub mod record;
 pub mod run_controller;
 pub mod run_log;
@@ -22,6 +26,7 @@ pub mod script;
 pub mod summary;
 pub mod turns;
 pub mod urdf;
+pub mod voice;
 pub mod words;
 
 use std::process::ExitCode;

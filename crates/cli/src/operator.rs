@@ -1,4 +1,7 @@
 //! The operator of a walk: sends a script's requests ahead of time, and hears what became of them.
+//!
+//! Such requests carry no age limit: all of them are on their way before the first is due, so that nobody needs to speak
+//! any more, and in lockstep the walk depends on nothing but its inputs.
 
 use std::collections::VecDeque;
 

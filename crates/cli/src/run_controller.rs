@@ -4,6 +4,7 @@ use controller::{Controller, Mode};
 use runtime::now_ns;
 use wire::{MeasurementMessage, NewestWriter, SetpointMessage};
 
+use crate::advisor::Advisor;
 use crate::exchange;
 use crate::inbox::Inbox;
 use crate::record::{ControllerEntry, Record};
@@ -34,22 +35,30 @@ pub fn run_controller(
     record: &mut Record<ControllerEntry>,
 ) -> Result<ControllerRun, PeerSilent> {
     let mut run = ControllerRun::default();
+    let mut advisor = Advisor::new(turns.clock());
+    let mut asked = None;
     while let Some(turn) = turns.wait(|| inbox.collect())? {
         let time_ns = now_ns();
         run.missed += turn.missed;
 
         let measurement = exchange::measurement::for_controller(&turn.message);
         inbox.collect();
-        let asked = inbox.due(turn.tick);
+        advisor.serve(controller);
+        if controller.is_free()
+            && let Some(due) = inbox.due(turn.tick)
+        {
+            controller.ask(&due.asked);
+            asked = Some(due);
+            advisor.serve(controller);
+        }
 
         let dt = turn.periods as f64 * PERIOD.as_secs_f64();
-        let request = asked.as_ref().map(|asked| (&asked.request, asked.intent));
-        let report = controller.tick(dt, Some(&measurement), request);
+        let report = controller.tick(dt, Some(&measurement));
 
         setpoints.write(&exchange::setpoint::message(turn.message.tick, time_ns, &report.setpoint));
         let compute_ns = now_ns() - time_ns;
 
-        inbox.answer(asked, &report);
+        inbox.answer(asked.take_if(|_| report.answer.is_some()), &report);
         let (late, missed) = (turn.missed > 0, run.missed);
         record.push(ControllerEntry { tick: turn.tick, time_ns, compute_ns, late, missed, report });
         let (half_steps, mode) = (report.half_step.index, Some(report.mode));

@@ -1,12 +1,14 @@
 //! The plant's loop: wait, read, step, write.
 
-use plant::{Plant, Setpoint};
+use plant::{Measurement, Plant, Setpoint};
 use runtime::now_ns;
 use wire::{MeasurementMessage, NewestWriter, SetpointMessage};
 
+use crate::engine::EngineError;
 use crate::exchange;
+use crate::failure::Failure;
 use crate::record::{PlantEntry, Record};
-use crate::turns::{PeerSilent, Turns};
+use crate::turns::Turns;
 
 /// How often the truth is looked at and written down [control periods].
 const TRUTH_PERIODS: u64 = 5;
@@ -27,18 +29,19 @@ pub struct PlantRun {
 }
 
 /// Runs until the turns end, or `end_when_fallen` and the robot has been lying for half a second. Before the first
-/// setpoint comes the robot is held as it `stands`.
+/// setpoint comes the robot is held as it `stands`. Who computes its physics is what `step` is.
 ///
 /// # Errors
-/// In lockstep the controller has been silent for too long.
+/// In lockstep the controller has been silent for too long, or the physics cannot be computed.
 pub fn run_plant(
     plant: &mut Plant,
+    mut step: impl FnMut(&mut Plant, &Setpoint) -> Result<Measurement, EngineError>,
     stands: Setpoint,
     turns: &mut Turns<SetpointMessage>,
     measurements: &mut NewestWriter<MeasurementMessage>,
     record: &mut Record<PlantEntry>,
     end_when_fallen: bool,
-) -> Result<PlantRun, PeerSilent> {
+) -> Result<PlantRun, Failure> {
     let mut run = PlantRun::default();
     let mut setpoint = stands;
     let mut began_ns = None;
@@ -46,7 +49,7 @@ pub fn run_plant(
     record.push(PlantEntry { tick: 0, angles: plant.robot.angles, truth: plant.truth() });
     measurements.write(&exchange::measurement::message(0, now_ns(), &plant.measure()));
 
-    while let Some(turn) = turns.wait(|| ())? {
+    while let Some(turn) = turns.wait(|| ()).map_err(Failure::new)? {
         let began_ns = *began_ns.get_or_insert_with(now_ns);
         run.missed += turn.missed;
 
@@ -55,9 +58,9 @@ pub fn run_plant(
             setpoint = exchange::setpoint::for_plant(&good);
         }
 
-        let mut measured = plant.step(&setpoint);
+        let mut measured = step(plant, &setpoint).map_err(Failure::new)?;
         for _ in 1..turn.periods {
-            measured = plant.step(&setpoint);
+            measured = step(plant, &setpoint).map_err(Failure::new)?;
         }
         run.ticks = turn.tick + 1;
 

@@ -51,6 +51,8 @@ pub struct WalkSummary {
     pub duration_s: f64,
     /// Of the sensors' noise.
     pub seed: u64,
+    /// Who simulated the robot: `rust` or `mujoco`.
+    pub plant: &'static str,
     /// The instance's name.
     pub instance: String,
     /// By which clock: `realtime` or `lockstep`.

@@ -87,6 +87,11 @@ impl<M: Newest> Turns<M> {
         Self { clock, reader, peer, ticks, next_tick: 0, period: None, interrupt }
     }
 
+    /// By what it goes.
+    pub fn clock(&self) -> Clock {
+        self.clock
+    }
+
     /// Waits for the next turn; `None` at the end, or when the process was asked to end. While there is nothing to do but
     /// wait, `idle` is called now and then.
     ///

@@ -105,12 +105,15 @@ fn foot_box(mechanism: &Mechanism, side: Side) -> (Vector3<f64>, Geometry) {
     (centre, Geometry::Box { size })
 }
 
-/// The box of uniform density that has the body's mass and moments: its sides follow from Iz = m (a² + b²) / 12 and its
-/// like for x and y.
 fn equivalent_box(body: &Body) -> Geometry {
+    Geometry::Box { size: vec3(equivalent_sides(body)) }
+}
+
+/// Sides of the box of uniform density that has the body's mass and moments [m]: they follow from Iz = m (a² + b²) / 12
+/// and its like for x and y.
+pub(crate) fn equivalent_sides(body: &Body) -> Vector3<f64> {
     let sum = body.inertia.sum();
-    let sides = body.inertia.map(|moment| (6.0 * (sum - 2.0 * moment) / body.mass).max(0.0).sqrt());
-    Geometry::Box { size: vec3(sides) }
+    body.inertia.map(|moment| (6.0 * (sum - 2.0 * moment) / body.mass).max(0.0).sqrt())
 }
 
 fn at(place: Vector3<f64>) -> Pose {

@@ -1,19 +1,19 @@
-//! The controller: one tick, read from top to bottom.
+//! The controller: one tick, read from top to bottom. Requests come by `requests.rs`.
 
 use std::sync::Arc;
 
-use balance::preview::{Gate, Stance};
-use balance::{CentreOfMass, Feedback, Ground, Plan, Sensed, ZmpEstimator};
+use balance::preview::{Forecaster, Gate, Stance};
+use balance::{CentreOfMass, Feedback, Ground, Plan, Preview, Sensed, ZmpEstimator};
 use dynamics::{Kinematics, Tree};
-use gait::{Admission, NominalTable, Request, Start, Verdict, Walk, WalkError};
+use gait::{NominalTable, Start, Walk, WalkError};
 use model::{Mechanism, Motion, Side};
 use nalgebra::Vector2;
 
-use crate::mode::Holding;
+use crate::mode::{Holding, Rising};
 use crate::watch::Watch;
 use crate::{
-    AddedAngles, Answer, Fault, Faults, Guard, Intent, Measurement, Mode, Parameters, Pattern, Refusal, Setpoint,
-    TickReport,
+    AddedAngles, Answer, Desk, Fault, Faults, Guard, Inquiry, Intent, Measurement, Mode, Parameters, Pattern, Setpoint,
+    Sources, TickReport,
 };
 
 /// With the measured ZMP so far inside a sole, all of it is on the ground [m].
@@ -24,7 +24,9 @@ const FLAT_MARGIN: f64 = 0.005;
 pub struct Controller {
     mechanism: Mechanism,
     tree: Tree,
-    pattern: Pattern,
+    pub(crate) pattern: Pattern,
+    /// The stand to get back to after a fall.
+    pub(crate) rest: Box<Preview>,
     watch: Watch,
     kinematics: Kinematics,
     zmp_estimator: ZmpEstimator,
@@ -33,11 +35,19 @@ pub struct Controller {
     feedback: Feedback,
     /// How the robot is turned beyond the plan, about x and y of support coordinates, when last sensed [rad].
     tilt: Vector2<f64>,
-    guard: Guard,
-    mode: Mode,
-    intent: Intent,
+    pub(crate) guard: Guard,
+    /// What is intended.
+    pub(crate) intent: Intent,
+    /// What keeps the robot from going on until a reset.
+    pub(crate) latched: Option<Fault>,
     /// The stop of a pattern that cannot stand by itself.
-    holding: Option<Holding>,
+    pub(crate) holding: Option<Holding>,
+    /// The way back to a stand.
+    pub(crate) rising: Option<Rising>,
+    pub(crate) sources: Sources,
+    pub(crate) desk: Desk,
+    /// Waits for the tick's report.
+    pub(crate) answer: Option<Answer>,
 }
 
 impl Controller {
@@ -52,48 +62,80 @@ impl Controller {
         start: Start,
     ) -> Result<Self, WalkError> {
         let walk = Walk::new(table, mechanism, &parameters.gait, start)?;
+        Ok(Self::with_pattern(
+            mechanism,
+            parameters,
+            &walk,
+            Pattern::new(mechanism, walk.clone(), parameters.compensation),
+        ))
+    }
+
+    /// A controller of a robot that stands with its feet side by side and walks when asked to. Needs the preview.
+    ///
+    /// # Errors
+    /// See [`WalkError`].
+    pub fn standing(
+        mechanism: &Mechanism,
+        table: Arc<NominalTable>,
+        parameters: &Parameters,
+        start: Start,
+    ) -> Result<Self, WalkError> {
+        let walk = Walk::new(table, mechanism, &parameters.gait, start)?;
+        let preview = Box::new(Preview::standing(mechanism, walk.clone()));
+        let controller = Self::with_pattern(mechanism, parameters, &walk, Pattern::Preview(preview));
+        Ok(Self { intent: Intent::Stop, ..controller })
+    }
+
+    fn with_pattern(mechanism: &Mechanism, parameters: &Parameters, walk: &Walk, pattern: Pattern) -> Self {
         let tree = Tree::new(mechanism);
         let mut plan = Plan::new(mechanism, &tree, walk.mirror());
-        plan.update(&tree, walk.mirror(), &walk.motion(), false);
-        let guard = Guard::new(mechanism, &walk.physical_motion().angles);
-        let pattern = Pattern::new(mechanism, walk, parameters.compensation);
-        Ok(Self {
+        plan.update(&tree, walk.mirror(), &pattern.motion(), pattern.weight_on_bearing() < 1.0);
+        let first = match pattern.half_step().support {
+            Side::Right => pattern.motion().angles,
+            Side::Left => walk.mirror().apply(&pattern.motion().angles),
+        };
+        let rest = Box::new(Preview::standing(mechanism, walk.clone()));
+        let forecaster = Forecaster::new(mechanism, plan.clone(), parameters.forecast);
+        Self {
             watch: Watch::new(mechanism, parameters.watch),
             kinematics: Kinematics::default(),
             zmp_estimator: ZmpEstimator::new(mechanism, parameters.balance.zmp),
             ground: Ground { zmp: None, margin: f64::NEG_INFINITY, loads: [0.0; 2], bears: [false; 2] },
             feedback: Feedback::new(mechanism, parameters.balance.feedback),
             tilt: Vector2::zeros(),
-            guard,
-            mode: Mode::Walking,
+            guard: Guard::new(mechanism, &first),
+            desk: Desk::Free(Box::new(Inquiry::new(forecaster, &rest))),
+            rest,
             intent: Intent::Walk,
+            latched: None,
             holding: None,
+            rising: None,
+            sources: Sources::new(parameters.sources),
+            answer: None,
             mechanism: mechanism.clone(),
             tree,
             pattern,
             plan,
-        })
+        }
     }
 
     /// One period.
     ///
     /// * `dt` – its length [s]
     /// * `measurement` – the newest one, if a new one came since the last tick
-    /// * `request` – at most one per tick, with what the operator intends
-    pub fn tick(
-        &mut self,
-        dt: f64,
-        measurement: Option<&Measurement>,
-        request: Option<(&Request, Option<Intent>)>,
-    ) -> TickReport {
+    pub fn tick(&mut self, dt: f64, measurement: Option<&Measurement>) -> TickReport {
         let mut faults = Faults::default();
-        let answer = request.map(|(request, intent)| self.answer(request, intent));
+
+        // Is anybody there?
+        if self.sources.advance(dt).is_some() && self.intent == Intent::Walk {
+            self.stop(Stance::Parallel);
+        }
 
         // Where are we?
         let centre_of_mass = self.estimate(measurement, dt, &mut faults);
 
         // What does balance ask for?
-        let is_planned = self.mode != Mode::Fallen && self.holding.is_none();
+        let is_planned = self.is_planned();
         if !is_planned {
             self.feedback.release();
         }
@@ -117,10 +159,13 @@ impl Controller {
 
         // What may the joints be given?
         let setpoint = self.limit(&asked, dt, &mut faults);
+        if faults.contains(Fault::WalkNotFinite) {
+            self.latch(Fault::WalkNotFinite);
+        }
 
         TickReport {
             setpoint,
-            mode: self.mode,
+            mode: self.mode(),
             half_step: self.pattern.half_step(),
             command: self.pattern.command(),
             speed: self.pattern.speed(),
@@ -132,20 +177,59 @@ impl Controller {
             com_planned: self.plan.centre_of_mass,
             com_sensed: centre_of_mass.filter(|_| is_same_foot),
             faults,
-            answer,
+            answer: self.answer.take(),
+        }
+    }
+
+    /// What the controller is doing.
+    pub fn mode(&self) -> Mode {
+        let standing = |stance| match (self.latched, stance) {
+            (Some(_), _) => Mode::Faulted,
+            (None, Stance::Parallel) => Mode::Standing,
+            (None, Stance::Stride) => Mode::Holding,
+        };
+        match self.pattern.gate() {
+            _ if self.latched == Some(Fault::Fallen) => Mode::Fallen,
+            _ if self.rising.is_some() => Mode::Starting,
+            _ if self.holding.is_some() => standing(Stance::Stride),
+            Gate::Closed(stance) if self.pattern.weight_on_bearing() < 1.0 => standing(stance),
+            Gate::Closed(_) | Gate::Closing { .. } => Mode::Stopping,
+            _ if self.pattern.weight_on_bearing() < 1.0 => Mode::Starting,
+            Gate::Open if self.intent != Intent::Walk && !self.pattern.can_stand() => Mode::Stopping,
+            Gate::Open | Gate::Opening { .. } => Mode::Walking,
+        }
+    }
+
+    /// Whether the newest good measurement is of now and tells of a robot on its feet.
+    pub(crate) fn is_well(&self) -> bool {
+        self.watch.is_upright() && !self.watch.is_stale()
+    }
+
+    /// Whether the walk plans what the joints do.
+    fn is_planned(&self) -> bool {
+        self.latched != Some(Fault::Fallen) && self.holding.is_none() && self.rising.is_none()
+    }
+
+    /// Keeps a fault until a reset; what was asked before is forgotten.
+    fn latch(&mut self, fault: Fault) {
+        if self.latched != Some(Fault::Fallen) {
+            self.latched = Some(fault);
+            if fault != Fault::Fallen && self.intent == Intent::Walk {
+                self.stop(Stance::Stride);
+            }
         }
     }
 
     /// Absorbs a measurement; gives the centre of mass as sensed, if something good was sensed.
     fn estimate(&mut self, measurement: Option<&Measurement>, dt: f64, faults: &mut Faults) -> Option<CentreOfMass> {
         let good = self.watch.update(measurement, dt, faults);
-        if self.watch.is_stale() && self.intent != Intent::Hold {
-            self.intend(Intent::Hold);
+        if self.watch.is_stale() && self.latched.is_none() {
+            self.latch(Fault::MeasurementStale);
         }
         let (measurement, up_in_trunk) = good?;
         if self.watch.has_fallen() {
             faults.insert(Fault::Fallen);
-            self.mode = Mode::Fallen;
+            self.latch(Fault::Fallen);
         }
 
         let sensed = Sensed::from_support(
@@ -174,25 +258,34 @@ impl Controller {
 
     /// Moves on by a period and gives what the mode asks for, in support coordinates, feedback included.
     fn advance(&mut self, dt: f64) -> Motion {
-        let motion = match (self.mode, &mut self.holding) {
-            (Mode::Fallen, _) => return Motion::default(),
-            (_, Some(holding)) => holding.advance(&self.tree, dt),
-            (_, None) => {
-                if self.pattern.advance(dt) {
-                    self.swap();
-                }
-                self.pattern.motion()
+        if self.latched == Some(Fault::Fallen) {
+            return Motion::default();
+        }
+        if let Some(rising) = &mut self.rising {
+            match rising.advance(dt) {
+                Some(motion) => return self.to_support(&motion),
+                None => self.rising = None,
             }
-        };
-        self.mode = match self.pattern.gate() {
-            _ if self.holding.is_some() => Mode::Holding,
-            Gate::Opening(_) => Mode::Starting,
-            _ if self.pattern.weight_on_bearing() < 1.0 => Mode::Holding,
-            _ => Mode::Walking,
+        }
+        let motion = if let Some(holding) = &mut self.holding {
+            holding.advance(&self.tree, dt)
+        } else {
+            if self.pattern.advance(dt) {
+                self.swap();
+            }
+            self.pattern.motion()
         };
         let on_both_feet = self.pattern.weight_on_bearing() < 1.0;
         self.plan.update(&self.tree, self.pattern.mirror(), &motion, on_both_feet);
         motion + *self.feedback.offsets()
+    }
+
+    /// A motion of physical joints as seen from the bearing foot.
+    fn to_support(&self, physical: &Motion) -> Motion {
+        match self.pattern.half_step().support {
+            Side::Right => *physical,
+            Side::Left => physical.mirrored(self.pattern.mirror()),
+        }
     }
 
     /// A new half-step has begun, told from the other foot.
@@ -205,19 +298,9 @@ impl Controller {
         }
     }
 
-    /// Goes on or stops at the next swap.
-    fn intend(&mut self, intent: Intent) {
-        self.intent = intent;
-        match intent {
-            Intent::Walk => self.pattern.start(),
-            Intent::Stop => self.pattern.stop(Stance::Parallel),
-            Intent::Hold => self.pattern.stop(Stance::Stride),
-        }
-    }
-
     /// Brings what is asked back to physical joints and through the guard.
     fn limit(&mut self, asked: &Motion, dt: f64, faults: &mut Faults) -> Setpoint {
-        if self.mode == Mode::Fallen {
+        if self.latched == Some(Fault::Fallen) {
             return self.guard.hold();
         }
         match self.pattern.half_step().support {
@@ -236,36 +319,8 @@ impl Controller {
             Pattern::Plain(walk) => (walk.as_ref(), walk.half_step()),
             Pattern::Preview(preview) => (preview.walk(), preview.half_step()),
         };
-        let is_known = self.mode != Mode::Fallen && self.holding.is_none() && walk.half_step().index == now.index;
+        let is_known = self.is_planned() && walk.half_step().index == now.index;
         let planned = asked.angles - self.feedback.offsets().angles;
         is_known.then(|| AddedAngles::between(&self.mechanism, &walk.motion_at(now.progress).angles, &planned))
-    }
-
-    /// Answers a request: the walk admits what changes it, the mode says whether there is a walk to change.
-    fn answer(&mut self, request: &Request, intent: Option<Intent>) -> Answer {
-        let refusal = match (self.mode, intent) {
-            (Mode::Fallen, _) => Some(Refusal::Fallen),
-            (_, None | Some(Intent::Walk)) if self.holding.is_some() => Some(Refusal::Standing),
-            _ => None,
-        };
-        if refusal.is_some() {
-            let half_step = self.pattern.half_step().index;
-            let admission = Admission {
-                verdict: Verdict::Refused,
-                reasons: [None; 3],
-                granted: self.pattern.command(),
-                effect_half_step: half_step,
-            };
-            return Answer { admission, intent: self.intent, refusal };
-        }
-        let mut admission = self.pattern.admit(request);
-        if admission.verdict != Verdict::Refused
-            && let Some(intent) = intent
-        {
-            self.intend(intent);
-            let stands = self.pattern.half_step().index + u64::from(self.pattern.gate().swaps_to_stand());
-            admission.effect_half_step = admission.effect_half_step.max(stands);
-        }
-        Answer { admission, intent: self.intent, refusal }
     }
 }

@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
+use balance::preview::ForecastParameters;
 use balance::{FeedbackParameters, ZmpParameters};
 use gait::{GaitParameters, Limits, RampKind};
 use model::config::{self, ConfigErrors, Document, Table};
 
-use crate::Compensation;
+use crate::{AGE_LIMIT_MIN, Compensation, Source, SourcesParameters};
 
 /// All of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,8 +18,12 @@ pub struct Parameters {
     pub compensation: Compensation,
     /// ZMP estimator and ankle feedback.
     pub balance: balance::Parameters,
+    /// What is demanded of the half-steps that a request leads to.
+    pub forecast: ForecastParameters,
     /// What counts as trouble.
     pub watch: WatchParameters,
+    /// How long sources of requests are believed, and who goes before whom.
+    pub sources: SourcesParameters,
 }
 
 /// What counts as trouble.
@@ -29,6 +34,9 @@ pub struct WatchParameters {
     /// Tilt of the trunk beyond which the robot counts as fallen [rad].
     pub tilt_max: f64,
 }
+
+/// Longest age limit that makes sense: a walk that goes on for longer with nobody there is unattended [s].
+const AGE_LIMIT_MAX: f64 = 60.0;
 
 impl Parameters {
     /// Reads a controller file.
@@ -54,7 +62,9 @@ impl Parameters {
                 .choice("compensation", [("none", Compensation::None), ("preview", Compensation::Preview)])
                 .unwrap_or(Compensation::None),
             balance: balance::Parameters { zmp: zmp(&root.table("zmp")), feedback: feedback(&root.table("feedback")) },
+            forecast: forecast(&root.table("forecast")),
             watch: watch(&root.table("watch")),
+            sources: sources(&root.table("sources")),
         };
         document.finish(parameters)
     }
@@ -92,9 +102,67 @@ fn feedback(table: &Table) -> FeedbackParameters {
     }
 }
 
+fn forecast(table: &Table) -> ForecastParameters {
+    ForecastParameters {
+        margin_min: table.number("margin_min_m").between(-0.1, 0.1),
+        clearance_min: table.number("clearance_min_m").between(0.0, 0.1),
+    }
+}
+
 fn watch(table: &Table) -> WatchParameters {
     WatchParameters {
         silence_max: table.number("silence_max_s").positive(),
         tilt_max: table.angle("tilt_max_deg").between(5.0, 90.0),
+    }
+}
+
+fn sources(table: &Table) -> SourcesParameters {
+    let names = [
+        ("teleop", Source::Teleop),
+        ("console", Source::Console),
+        ("program", Source::Program),
+        ("script", Source::Script),
+    ];
+    let is_limit = |limit| limit == 0.0 || (AGE_LIMIT_MIN..=AGE_LIMIT_MAX).contains(&limit);
+    let must = format!("must lie between {AGE_LIMIT_MIN} and {AGE_LIMIT_MAX}, or be 0 for none");
+    let age_limit = table.number("age_limit_s").that(is_limit, &must);
+    SourcesParameters {
+        age_limit: Some(age_limit).filter(|&limit| limit > 0.0),
+        priority: table.order("priority", names).unwrap_or(Source::ALL),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const COMMITTED: &str = include_str!("../../../config/controller.toml");
+
+    fn with(from: &str, to: &str) -> Result<SourcesParameters, String> {
+        assert!(COMMITTED.contains(from), "{from}");
+        let parameters = Parameters::from_toml(&COMMITTED.replace(from, to), "f");
+        parameters.map(|parameters| parameters.sources).map_err(|errors| errors.to_string())
+    }
+
+    #[test]
+    fn streams_are_believed_for_half_a_second_unless_that_is_switched_off() {
+        assert_eq!(with("", "").unwrap().age_limit, Some(0.5));
+        assert_eq!(with("age_limit_s = 0.5", "age_limit_s = 0").unwrap().age_limit, None);
+        for wrong in ["-1", "0.01", "1000", "nan"] {
+            assert!(with("age_limit_s = 0.5", &format!("age_limit_s = {wrong}")).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn the_order_of_priority_names_each_source_once() {
+        let order = r#"["teleop", "console", "program", "script"]"#;
+        assert_eq!(with("", "").unwrap().priority[0], Source::Teleop);
+        let turned = with(order, r#"["script", "program", "console", "teleop"]"#).unwrap();
+        assert_eq!(turned.priority, [Source::Script, Source::Program, Source::Console, Source::Teleop]);
+        for wrong in ["[]", "3", r#"["teleop", "console", "program"]"#, r#"["teleop", "teleop", "program", "script"]"#]
+        {
+            let errors = with(order, wrong).unwrap_err();
+            assert!(errors.contains("must be an array that names each of \"teleop\", \"console\""), "{errors}");
+        }
     }
 }

@@ -1,11 +1,12 @@
 //! What a tick gives: the setpoint, and what there is to say about it.
 
 use balance::CentreOfMass;
+use balance::preview::Strain;
 use gait::{Admission, HalfStep};
 use model::{Joint, JointVector, Mechanism};
 use nalgebra::Vector2;
 
-use crate::{Faults, Intent, Mode};
+use crate::{Faults, Intent, Mode, Outranked};
 
 /// What the drives are to reach at the end of the period, in physical joints.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -82,6 +83,10 @@ impl AddedAngles {
 pub struct Answer {
     /// What became of turn, speed and extension, and when it takes effect.
     pub admission: Admission,
+    /// The limit that would be broken by what was asked, where less was granted for it.
+    pub strain: Option<Strain>,
+    /// Least margin foreseen for the coming half-steps [m].
+    pub predicted_margin: Option<f64>,
     /// What is intended from now on.
     pub intent: Intent,
     /// Why nothing was granted at all, apart from the values themselves.
@@ -89,12 +94,18 @@ pub struct Answer {
 }
 
 /// Why a request as a whole was refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Refusal {
-    /// The robot has fallen.
+    /// The robot has fallen: put it on its feet and ask for a reset.
     Fallen,
+    /// A fault is latched: ask for a reset.
+    Faulted,
+    /// What went wrong still is: a reset is of no use yet.
+    NotWell,
     /// The plain sum of modifications has been stopped; it cannot begin again from a stand.
     Standing,
+    /// A source that goes before the one that asked is in command.
+    Outranked(Outranked),
 }
 
 #[cfg(test)]

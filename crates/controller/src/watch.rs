@@ -116,6 +116,11 @@ impl Watch {
         })
     }
 
+    /// Whether the trunk was within recovery when last heard of.
+    pub fn is_upright(&self) -> bool {
+        self.tilted == 0.0
+    }
+
     /// Whether the trunk has been tilting beyond recovery for a while.
     pub fn has_fallen(&self) -> bool {
         self.tilted > TILT_LASTS

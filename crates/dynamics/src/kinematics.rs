@@ -34,6 +34,14 @@ impl Kinematics {
         kinematics
     }
 
+    /// The same as far as a link of the chain that leads from the right sole over the pelvis to the left sole; links beyond
+    /// it are nowhere.
+    pub fn standing_up_to(tree: &Tree, angles: &JointVector, link: Joint) -> Self {
+        let mut kinematics = Self::default();
+        kinematics.chain(tree, angles, Joint::ALL.into_iter().take_while(|joint| joint.number() <= link.number()));
+        kinematics
+    }
+
     /// As [`Kinematics::standing`], in place.
     #[inline]
     pub fn stand(&mut self, tree: &Tree, angles: &JointVector) {

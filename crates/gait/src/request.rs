@@ -91,6 +91,13 @@ impl Command {
     pub const NOMINAL: Command = Command { turn: 0.0, speed: 1.0, extension: 0.0 };
 }
 
+impl From<Command> for Request {
+    /// Asks for all of it.
+    fn from(command: Command) -> Self {
+        Self { turn: Some(command.turn), speed: Some(command.speed), extension: Some(command.extension) }
+    }
+}
+
 impl Admission {
     /// The first reason, if anything was not granted as asked.
     pub fn reason(&self) -> Option<Reason> {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use model::{Joint, Mechanism, Mirror, Motion, Side};
+use model::{Joint, JointVector, Mechanism, Mirror, Motion, Side};
 use nalgebra::Vector3;
 
 use crate::{
@@ -208,6 +208,14 @@ impl Walk {
             self.table.at(progress) + self.turn.at(progress, duration) + self.extension.at(progress, duration);
         let speed = self.speed.state();
         at_speed(&at_nominal_speed, speed.value, speed.rate)
+    }
+
+    /// The angles that the walk asks now, in canonical coordinates.
+    pub fn angles(&self) -> JointVector {
+        let (progress, duration) = (self.half_step.progress, self.table.duration);
+        self.table.at(progress).angles
+            + self.turn.at(progress, duration).angles
+            + self.extension.at(progress, duration).angles
     }
 
     /// What the walk asks now, in physical joints: 3 to 8 are the right leg's whichever foot bears.

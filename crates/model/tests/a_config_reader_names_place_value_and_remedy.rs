@@ -14,6 +14,7 @@ struct Servo {
     samples: u64,
     enabled: bool,
     mode: Option<u8>,
+    order: Option<[char; 3]>,
     pushes: Vec<f64>,
 }
 
@@ -29,6 +30,7 @@ fn servo(text: &str) -> Result<Servo, ConfigErrors> {
         samples: servo.integer("samples", 1, 64),
         enabled: servo.flag("enabled"),
         mode: servo.choice("mode", [("stiff", 1), ("soft", 2)]),
+        order: servo.order("order", [("angle", 'q'), ("rate", 'v'), ("torque", 't')]),
         pushes: root.tables("push").iter().map(|push| push.number("force_n").any()).collect(),
     };
     document.finish(loaded)
@@ -45,6 +47,7 @@ period_ms = 2.5
 samples = 0x10
 enabled = true
 mode = "soft"
+order = ["torque", "angle", "rate"]
 [[push]]
 force_n = 10
 [[push]]
@@ -58,6 +61,7 @@ force_n = -20.5
         samples: 16,
         enabled: true,
         mode: Some(2),
+        order: Some(['t', 'q', 'v']),
         pushes: vec![10.0, -20.5],
     };
     assert_eq!(servo(text).unwrap(), expected);
@@ -73,6 +77,7 @@ period_ms = 0
 samples = 65
 enabled = "yes"
 mode = "hard"
+order = ["torque", "angle", "torque"]
 speed = 1
 [[push]]
 force_n = nan
@@ -89,11 +94,12 @@ servo.toml:5:13: servo.period_ms = 0: must be greater than 0
 servo.toml:6:11: servo.samples = 65: must be a whole number between 1 and 64
 servo.toml:7:11: servo.enabled = "yes": must be true or false
 servo.toml:8:8: servo.mode = "hard": must be one of "stiff", "soft"
-servo.toml:9:1: servo.speed = 1: unknown key, expected are stiffness_n_m_per_rad, angle_max_deg, period_ms, samples, enabled, mode
-servo.toml:11:11: push[0].force_n = nan: must be a finite number
-servo.toml:13:1: push[1].force_kg = 2: unknown key, write `force_n`
-servo.toml:14:1: push[1].when = 3: unknown key, expected are force_n
-servo.toml:15:2: server: unknown key, expected are servo, name, push"#;
+servo.toml:9:9: servo.order = ["torque", "angle", "torque"]: must be an array that names each of "angle", "rate", "torque" once
+servo.toml:10:1: servo.speed = 1: unknown key, expected are stiffness_n_m_per_rad, angle_max_deg, period_ms, samples, enabled, mode, order
+servo.toml:12:11: push[0].force_n = nan: must be a finite number
+servo.toml:14:1: push[1].force_kg = 2: unknown key, write `force_n`
+servo.toml:15:1: push[1].when = 3: unknown key, expected are force_n
+servo.toml:16:2: server: unknown key, expected are servo, name, push"#;
     assert_eq!(servo(text).unwrap_err().to_string(), expected);
 }
 

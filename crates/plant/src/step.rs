@@ -30,7 +30,7 @@ pub struct Plant {
     pub(crate) parameters: Parameters,
     period: f64,
     /// Control periods since the start.
-    periods: u64,
+    pub(crate) periods: u64,
     /// The robot itself.
     pub robot: RobotState,
     /// What happens to it. More may be added at any time.
@@ -43,7 +43,7 @@ pub struct Plant {
     world_to_level: UnitQuaternion<f64>,
     /// Of the ground on each foot at the end of the last step, about the right sole's origin in world axes.
     pub(crate) ground: [Wrench; 2],
-    motor_torques: JointVector,
+    pub(crate) motor_torques: JointVector,
 }
 
 impl Plant {

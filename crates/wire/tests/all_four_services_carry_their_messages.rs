@@ -3,7 +3,9 @@
 mod common;
 
 use common::{LONG, MECHANISM, eventually, files_of, measurement, own_instance, report, request, setpoint};
-use wire::{AskError, ConnectError, ControllerEnd, ObserverEnd, OperatorEnd, PlantEnd, ReplyMessage};
+use wire::{
+    AskError, ConnectError, ControllerEnd, Granted, ObserverEnd, OperatorEnd, PlantEnd, Reason, Reply, ReplyMessage,
+};
 
 #[test]
 fn the_newest_setpoint_and_measurement_win() {
@@ -66,7 +68,8 @@ fn each_request_gets_its_own_reply() {
 }
 
 fn reply_to(turn: f64) -> ReplyMessage {
-    ReplyMessage { verdict: 1, reason: 0, effect_half_step: 7, turn, speed: 1.0, extension: 0.0, intent: 1, pad: 0 }
+    let granted = Granted { turn, speed: 1.0, extension: 0.0, intent: None };
+    ReplyMessage::from(&Reply::refused(Reason::NoWayBack, 7, granted))
 }
 
 #[test]

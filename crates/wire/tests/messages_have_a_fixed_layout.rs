@@ -41,17 +41,18 @@ fn measurement() {
 
 #[test]
 fn request() {
-    assert_layout!(RequestMessage, 48, {
-        not_before @ 0 + 8, present @ 8 + 4, intent @ 12 + 4, source @ 16 + 4, pad @ 20 + 4, turn @ 24 + 8,
-        speed @ 32 + 8, extension @ 40 + 8,
+    assert_layout!(RequestMessage, 56, {
+        not_before @ 0 + 8, present @ 8 + 4, intent @ 12 + 4, source @ 16 + 4, lasting @ 20 + 4, turn @ 24 + 8,
+        speed @ 32 + 8, extension @ 40 + 8, age_limit @ 48 + 8,
     });
 }
 
 #[test]
 fn reply() {
-    assert_layout!(ReplyMessage, 48, {
+    assert_layout!(ReplyMessage, 88, {
         verdict @ 0 + 4, reason @ 4 + 4, effect_half_step @ 8 + 8, turn @ 16 + 8, speed @ 24 + 8, extension @ 32 + 8,
-        intent @ 40 + 4, pad @ 44 + 4,
+        intent @ 40 + 4, known @ 44 + 4, joint @ 48 + 4, source @ 52 + 4, value @ 56 + 8, limit @ 64 + 8,
+        remaining @ 72 + 8, predicted_margin @ 80 + 8,
     });
 }
 

@@ -7,7 +7,7 @@ use model::{Mechanism, Mirror};
 use crate::preview::{CartTable, KNOT, NominalSway};
 
 /// Knots over which the feet are looked ahead: 1.8 s, e^(−6) of the pendulum.
-const KNOTS_AHEAD: usize = 180;
+pub(super) const KNOTS_AHEAD: usize = 180;
 /// Knots over which the whole body is: 1 s, e^(−3).
 pub(super) const KNOTS_FORESEEN: usize = 100;
 /// What a jerk costs against a ZMP error [m²/(m/s³)²].

@@ -69,13 +69,13 @@ impl CartTable {
         self.preview.len()
     }
 
-    /// Share of what is wanted `ahead` knots from now in the jerk; 0 for the next knot.
-    pub fn gain(&self, ahead: usize) -> f64 {
-        self.preview[ahead]
+    /// Shares of what is wanted in the coming knots in the jerk, the next knot's first.
+    pub fn gains(&self) -> &[f64] {
+        &self.preview
     }
 
     /// The state one knot later; `wanted` is the sum of what is wanted of the ZMP in the coming knots, each times its
-    /// [`gain`](Self::gain).
+    /// [`gain`](Self::gains).
     pub fn advance(&self, state: &CartState, wanted: f64) -> CartState {
         let jerk = wanted - (self.feedback * state)[0];
         self.transition * state + self.input * jerk
@@ -96,7 +96,7 @@ mod tests {
         let mut state = CartState::zeros();
         let mut worst: f64 = 0.0;
         for knot in 0..1200 {
-            let sum = (0..knots).map(|ahead| cart.gain(ahead) * wanted(knot + 1 + ahead)).sum();
+            let sum = (0..knots).map(|ahead| cart.gains()[ahead] * wanted(knot + 1 + ahead)).sum();
             state = cart.advance(&state, sum);
             let zmp = state[0] - HEIGHT_OVER_GRAVITY * state[2];
             if knot > 240 && (10..50).contains(&((knot + 1) % 60)) {
@@ -117,7 +117,7 @@ mod tests {
         let cart = CartTable::new(HEIGHT_OVER_GRAVITY, KNOT, 180, 1e-9);
         let mut state = CartState::new(1000.0, 0.0, 0.0);
         for _ in 0..1000 {
-            let sum = (0..180).map(|ahead| cart.gain(ahead) * 1000.0).sum();
+            let sum = (0..180).map(|ahead| cart.gains()[ahead] * 1000.0).sum();
             state = cart.advance(&state, sum);
         }
         assert!((state[0] - 1000.0).abs() < 1e-6, "drifted to {} m", state[0]);

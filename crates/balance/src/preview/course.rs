@@ -2,7 +2,7 @@
 
 use dynamics::Kinematics;
 use gait::{Admission, Command, Request, Verdict, Walk};
-use model::Joint;
+use model::{Joint, Mechanism, Side};
 use nalgebra::{Vector2, Vector3};
 
 use crate::preview::{Biped, Footprint, Gate, SolePose, Stance};
@@ -40,6 +40,17 @@ impl Course {
         let asked = walk.command();
         let feet = Feet { footprint, standing, landing: standing };
         let mut course = Self { walk, gate: Gate::Open, feet, asked };
+        course.feet.landing = course.landing(biped);
+        course
+    }
+
+    /// At a stand with the feet side by side, about to walk when asked to.
+    pub fn standing(biped: &Biped, walk: Walk) -> Self {
+        let parallel = parallel(biped);
+        let footprint = Footprint::first(walk.half_step().support);
+        let feet = Feet { footprint, standing: parallel, landing: parallel };
+        let mut course = Self { asked: walk.command(), walk, gate: Gate::Closed(Stance::Parallel), feet };
+        course.walk.force(&Command::NOMINAL);
         course.feet.landing = course.landing(biped);
         course
     }
@@ -102,8 +113,7 @@ impl Course {
     /// Where the swinging sole of the present half-step is to land.
     fn landing(&self, biped: &Biped) -> SolePose {
         if self.gate.lands_parallel() {
-            let width = biped.mechanism.links[Joint::LeftHipRoll].origin.y;
-            return SolePose { position: Vector3::new(0.0, width, 0.0), yaw: 0.0 };
+            return parallel(biped);
         }
         let mut landing = self.swinging_sole(biped, 1.0);
         landing.position.z = 0.0;
@@ -112,6 +122,14 @@ impl Course {
 
     /// The swinging sole of the modified half-step at a progress.
     pub fn swinging_sole(&self, biped: &Biped, progress: f64) -> SolePose {
-        SolePose::swinging(&biped.mechanism, &Kinematics::standing(&biped.tree, &self.walk.motion_at(progress).angles))
+        let angles = self.walk.motion_at(progress).angles;
+        let kinematics = Kinematics::standing_up_to(&biped.tree, &angles, Mechanism::foot(Side::Left));
+        SolePose::swinging(&biped.mechanism, &kinematics)
     }
+}
+
+/// The other sole beside the bearing one.
+fn parallel(biped: &Biped) -> SolePose {
+    let width = biped.mechanism.links[Joint::LeftHipRoll].origin.y;
+    SolePose { position: Vector3::new(0.0, width, 0.0), yaw: 0.0 }
 }

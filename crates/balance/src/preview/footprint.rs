@@ -1,8 +1,8 @@
 //! Where the feet are put: soles in support coordinates, footprints in the walk's own frame.
 
-use dynamics::{Kinematics, atan2};
+use dynamics::{Kinematics, atan2, sin_cos};
 use model::{Mechanism, Side};
-use nalgebra::{Isometry2, Isometry3, Rotation2, Translation3, UnitQuaternion, Vector2, Vector3};
+use nalgebra::{Isometry2, Isometry3, Quaternion, Rotation2, Translation3, UnitQuaternion, Vector2, Vector3};
 
 /// A level sole in support coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,10 +38,7 @@ impl SolePose {
 
     /// Maps sole coordinates to support coordinates.
     pub fn to_support(self) -> Isometry3<f64> {
-        Isometry3::from_parts(
-            Translation3::from(self.position),
-            UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw),
-        )
+        Isometry3::from_parts(Translation3::from(self.position), turned_about_z(self.yaw))
     }
 }
 
@@ -86,6 +83,12 @@ impl Footprint {
             Side::Left => Vector2::new(vector.x, -vector.y),
         }
     }
+}
+
+/// A rotation about the vertical; no function of the system's mathematical library gets into a joint.
+pub(super) fn turned_about_z(angle: f64) -> UnitQuaternion<f64> {
+    let (sin, cos) = sin_cos(angle / 2.0);
+    UnitQuaternion::new_unchecked(Quaternion::new(cos, 0.0, 0.0, sin))
 }
 
 #[cfg(test)]

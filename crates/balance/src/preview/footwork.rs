@@ -1,7 +1,7 @@
 //! Footwork: what the half-steps ask of the body at a knot, apart from where its centre of mass goes.
 
 use dynamics::{Kinematics, Leg, atan2};
-use model::{JointVector, Side};
+use model::{JointVector, Mechanism, Side};
 use nalgebra::{Vector2, Vector3};
 
 use crate::preview::{Biped, Course, Gate, HipHeight, KNOT, LandingShift, SolePose, SwingPath, Wanted};
@@ -79,7 +79,9 @@ impl Footwork {
     /// The posture that has the centre of mass at `com` in the walk frame [m].
     pub fn wanted(&self, biped: &Biped, com: Vector2<f64>) -> Wanted {
         let progress = self.course.walk.half_step().progress;
-        let asked = Kinematics::standing(&biped.tree, &self.course.walk.motion().angles);
+        let other_foot = Mechanism::foot(Side::Left);
+        let angles = self.course.walk.angles();
+        let asked = Kinematics::standing_up_to(&biped.tree, &angles, other_foot);
         let nominal = self.course.walk.table().at(progress).angles;
         let pelvis_ahead = asked.rotation[PELVIS].column(0).into_owned();
         let mut swinging = self.swing.at(progress, &SolePose::swinging(&biped.mechanism, &asked));
@@ -87,7 +89,8 @@ impl Footwork {
         swinging.position += Vector3::new(shift.x, shift.y, 0.0);
         Wanted {
             com: self.course.feet.footprint.point_to_support(com),
-            hip_height: Kinematics::standing(&biped.tree, &nominal).origin[PELVIS].z - self.hips.lowered(progress),
+            hip_height: Kinematics::standing_up_to(&biped.tree, &nominal, PELVIS).origin[PELVIS].z
+                - self.hips.lowered(progress),
             pelvis_yaw: atan2(pelvis_ahead.y, pelvis_ahead.x),
             swinging,
             upper: nominal,

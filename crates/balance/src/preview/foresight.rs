@@ -6,7 +6,7 @@ use model::{JointVector, Motion, Side};
 use nalgebra::Vector2;
 
 use crate::preview::biped::KNOTS_FORESEEN;
-use crate::preview::{Biped, CartState, Footprint, Footwork, KNOT, Outlook, WholeBody};
+use crate::preview::{Biped, CartState, Footprint, Footwork, KNOT, Outlook, Wanted, WholeBody};
 
 /// The coming knots as the pendulum alone would have them. Played anew when a request changes what is to come; else one
 /// knot is added as one is used.
@@ -30,7 +30,9 @@ pub struct Foresight {
 struct Foreseen {
     /// The pendulum along x and y of the walk frame.
     com: [CartState; 2],
-    /// Physical joints.
+    /// What the half-steps ask of the posture, with the centre of mass where the pendulum is.
+    wanted: Wanted,
+    /// The posture that does it, in physical joints.
     angles: JointVector,
     /// What the outlook takes the pendulum to leave out of the ZMP, in the walk frame [m].
     expected: Vector2<f64>,
@@ -42,7 +44,8 @@ impl Foresight {
     /// Looks ahead from a walk's very beginning.
     pub fn new(biped: &Biped, footwork: &Footwork, com: [CartState; 2], motion: &Motion) -> Self {
         let angles = footwork.physical(biped, &motion.angles);
-        let now = Foreseen { com, angles, expected: Vector2::zeros(), unexpected: Vector2::zeros() };
+        let wanted = footwork.wanted(biped, place(&com));
+        let now = Foreseen { com, wanted, angles, expected: Vector2::zeros(), unexpected: Vector2::zeros() };
         let before = Foreseen { angles: footwork.physical(biped, &(motion.angles - motion.rates * KNOT)), ..now };
         let mut knots = [before; KNOTS_FORESEEN + 2];
         knots[0] = now;
@@ -80,17 +83,19 @@ impl Foresight {
         self.extend(biped);
     }
 
-    /// The pendulum at the present knot.
-    pub fn com(&self) -> Vector2<f64> {
-        let [x, y] = &self.knots[self.present].com;
-        Vector2::new(x.x, y.x)
+    /// What the present knot asks of the posture, with the centre of mass off the pendulum by `correction`; both in the walk
+    /// frame [m].
+    pub fn wanted(&self, footprint: &Footprint, correction: Vector2<f64>) -> Wanted {
+        let Foreseen { com, wanted, .. } = &self.knots[self.present];
+        Wanted { com: footprint.point_to_support(place(com) + correction), ..*wanted }
     }
 
     /// What the correction is to do about the coming knots, each times its gain, along both axes of the walk frame.
     pub fn weighed(&self, biped: &Biped) -> Vector2<f64> {
-        (0..KNOTS_FORESEEN)
-            .map(|ahead| self.knots[self.slot(ahead + 1)].unexpected * -biped.correction.gain(ahead))
-            .sum()
+        let (early, late) = self.knots.split_at(self.present);
+        let coming = late[1..].iter().chain(early).take(KNOTS_FORESEEN);
+        let sum: Vector2<f64> = coming.zip(biped.correction.gains()).map(|(knot, gain)| knot.unexpected * *gain).sum();
+        -sum
     }
 
     fn slot(&self, ahead: usize) -> usize {
@@ -103,18 +108,18 @@ impl Foresight {
         let Foreseen { com, unexpected, .. } = self.knots[last];
         let footprint = self.footwork.course.feet.footprint;
 
-        let wanted = self.outlook.weighed(&biped.pendulum);
-        let com = [0, 1].map(|axis| biped.pendulum.advance(&com[axis], wanted[axis]));
+        let sum = self.outlook.weighed(&biped.pendulum);
+        let com = [0, 1].map(|axis| biped.pendulum.advance(&com[axis], sum[axis]));
         self.outlook.advance(biped);
         if self.footwork.advance(biped) {
             self.body.swap(biped);
         }
-        let posture = self.footwork.wanted(biped, Vector2::new(com[0].x, com[1].x));
-        let reached = self.body.reach(biped, &posture);
+        let wanted = self.footwork.wanted(biped, place(&com));
+        let reached = self.body.reach(biped, &wanted);
         let angles = reached.map_or(self.knots[last].angles, |angles| self.footwork.physical(biped, &angles));
         let expected =
             self.footwork.course.feet.footprint.direction_to_walk(self.footwork.course.beyond_pendulum(biped));
-        self.knots[new] = Foreseen { com, angles, expected, unexpected };
+        self.knots[new] = Foreseen { com, wanted, angles, expected, unexpected };
         self.ahead += 1;
 
         // Only now the knot before it has a neighbour on either side.
@@ -140,4 +145,9 @@ impl Foresight {
         }));
         Some(whole - pendulum - knot.expected)
     }
+}
+
+/// Where the pendulum is, in the walk frame [m].
+fn place([x, y]: &[CartState; 2]) -> Vector2<f64> {
+    Vector2::new(x.x, y.x)
 }

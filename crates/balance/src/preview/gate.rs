@@ -20,9 +20,14 @@ pub enum Gate {
         reopen: bool,
     },
     /// Standing on both feet.
-    Closed,
-    /// The weight goes to the foot that is to bear; so many knots are left.
-    Opening(u32),
+    Closed(Stance),
+    /// The weight goes to the foot that is to bear.
+    Opening {
+        /// How the feet stand.
+        stance: Stance,
+        /// How many knots are left.
+        left: u32,
+    },
 }
 
 /// How the feet stand when the walk has stopped.
@@ -45,7 +50,8 @@ impl Gate {
         *self = match *self {
             Gate::Open => Gate::Closing { swaps: SWAPS_TO_STAND, stance, reopen: false },
             Gate::Closing { swaps, stance, .. } => Gate::Closing { swaps, stance, reopen: false },
-            Gate::Closed | Gate::Opening(_) => Gate::Closed,
+            Gate::Closed(stance) => Gate::Closed(stance),
+            Gate::Opening { stance, .. } => Gate::Closed(stance),
         };
     }
 
@@ -59,7 +65,7 @@ impl Gate {
         *self = match *self {
             Gate::Closing { swaps: 2.., .. } => Gate::Open,
             Gate::Closing { swaps, stance, .. } => Gate::Closing { swaps, stance, reopen: true },
-            Gate::Closed => Gate::Opening(SHIFT_KNOTS),
+            Gate::Closed(stance) => Gate::Opening { stance, left: SHIFT_KNOTS },
             open => open,
         };
     }
@@ -78,15 +84,15 @@ impl Gate {
                 if begins {
                     *self = match (swaps, reopen) {
                         (2.., _) => Gate::Closing { swaps: swaps - 1, stance, reopen },
-                        (_, true) => Gate::Opening(SHIFT_KNOTS),
-                        (_, false) => Gate::Closed,
+                        (_, true) => Gate::Opening { stance, left: SHIFT_KNOTS },
+                        (_, false) => Gate::Closed(stance),
                     };
                 }
                 begins
             }
-            Gate::Closed => false,
-            Gate::Opening(left) => {
-                *self = if left > 1 { Gate::Opening(left - 1) } else { Gate::Open };
+            Gate::Closed(_) => false,
+            Gate::Opening { stance, left } => {
+                *self = if left > 1 { Gate::Opening { stance, left: left - 1 } } else { Gate::Open };
                 false
             }
         }
@@ -94,15 +100,15 @@ impl Gate {
 
     /// Whether the robot is on both feet.
     pub fn is_standing(self) -> bool {
-        matches!(self, Gate::Closed | Gate::Opening(_))
+        matches!(self, Gate::Closed(_) | Gate::Opening { .. })
     }
 
     /// Share of the weight that the bearing foot is to carry: half when standing, all when walking.
     pub fn weight_on_bearing(self) -> f64 {
         match self {
             Gate::Open | Gate::Closing { .. } => 1.0,
-            Gate::Closed => 0.5,
-            Gate::Opening(_) => 0.5 + 0.5 * smooth_step(self.shifted()),
+            Gate::Closed(_) => 0.5,
+            Gate::Opening { .. } => 0.5 + 0.5 * smooth_step(self.shifted()),
         }
     }
 
@@ -110,8 +116,8 @@ impl Gate {
     pub fn shifted(self) -> f64 {
         match self {
             Gate::Open | Gate::Closing { .. } => 1.0,
-            Gate::Closed => 0.0,
-            Gate::Opening(left) => 1.0 - f64::from(left) / f64::from(SHIFT_KNOTS),
+            Gate::Closed(_) => 0.0,
+            Gate::Opening { left, .. } => 1.0 - f64::from(left) / f64::from(SHIFT_KNOTS),
         }
     }
 }

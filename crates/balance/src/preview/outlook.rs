@@ -2,6 +2,7 @@
 
 use nalgebra::Vector2;
 
+use crate::preview::biped::KNOTS_AHEAD;
 use crate::preview::{Biped, CartTable, Course};
 
 /// Where the pendulum's ZMP is wanted in the coming knots: under the foot that will bear, less what the pendulum leaves out.
@@ -9,7 +10,7 @@ use crate::preview::{Biped, CartTable, Course};
 #[derive(Clone, Debug)]
 pub struct Outlook {
     /// In the walk frame [m]; the oldest at `next`.
-    wanted: Vec<Vector2<f64>>,
+    wanted: [Vector2<f64>; KNOTS_AHEAD],
     next: usize,
     /// The course at the last of them.
     scout: Course,
@@ -18,8 +19,7 @@ pub struct Outlook {
 impl Outlook {
     /// Looks ahead of a course.
     pub fn new(biped: &Biped, course: &Course) -> Self {
-        let wanted = vec![Vector2::zeros(); biped.pendulum.knots()];
-        let mut outlook = Self { wanted, next: 0, scout: course.clone() };
+        let mut outlook = Self { wanted: [Vector2::zeros(); KNOTS_AHEAD], next: 0, scout: course.clone() };
         outlook.begin(biped, course);
         outlook
     }
@@ -44,6 +44,10 @@ impl Outlook {
     /// The sum of what is wanted, each knot times its gain, along both axes of the walk frame.
     pub fn weighed(&self, cart: &CartTable) -> Vector2<f64> {
         let (later, sooner) = self.wanted.split_at(self.next);
-        sooner.iter().chain(later).enumerate().map(|(ahead, wanted)| wanted * cart.gain(ahead)).sum()
+        let (soon, late) = cart.gains().split_at(sooner.len());
+        let weigh = |wanted: &[Vector2<f64>], gains: &[f64]| -> Vector2<f64> {
+            wanted.iter().zip(gains).map(|(wanted, gain)| wanted * *gain).sum()
+        };
+        weigh(sooner, soon) + weigh(later, late)
     }
 }

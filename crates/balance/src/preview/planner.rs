@@ -34,6 +34,8 @@ pub struct Preview {
     tilt: Vector2<f64>,
     /// The last four knots, oldest first; now is between the second and the third.
     knots: [Knot; 4],
+    /// Counts what was planned.
+    stamp: u64,
     /// Since the second knot [s].
     elapsed: f64,
     /// Knots since the landing was shifted last.
@@ -46,6 +48,8 @@ pub struct Preview {
 struct Knot {
     /// Physical joints.
     angles: JointVector,
+    /// The bearing foot.
+    footprint: Footprint,
     /// Half-steps since the beginning, with their progress.
     place: f64,
     speed: f64,
@@ -56,11 +60,27 @@ struct Knot {
 }
 
 impl Preview {
-    /// A walk at its very beginning.
+    /// A walk in stride, at the very beginning of its first half-step.
     pub fn new(mechanism: &Mechanism, walk: Walk) -> Self {
         let biped = Biped::new(mechanism, walk.mirror(), walk.table());
         let motion = walk.motion();
         let footwork = Footwork::new(&biped, Course::new(&biped, walk));
+        Self::begin(biped, footwork, &motion)
+    }
+
+    /// A stand with the feet side by side, from which a walk can be started.
+    pub fn standing(mechanism: &Mechanism, walk: Walk) -> Self {
+        let biped = Biped::new(mechanism, walk.mirror(), walk.table());
+        let nominal = walk.motion().angles;
+        let footwork = Footwork::new(&biped, Course::standing(&biped, walk));
+        let feet = &footwork.course.feet;
+        let middle = feet.footprint.point_to_walk(feet.standing.position.xy() / 2.0);
+        let posture = WholeBody::new(&biped, &nominal).reach(&biped, &footwork.wanted(&biped, middle));
+        Self::begin(biped, footwork, &Motion::at_rest(posture.unwrap_or(nominal)))
+    }
+
+    /// Begins with a motion, told in support coordinates.
+    fn begin(biped: Biped, footwork: Footwork, motion: &Motion) -> Self {
         let kinematics = Kinematics::standing(&biped.tree, &motion.angles);
         let com = cart_states(
             &footwork.course.feet.footprint,
@@ -70,19 +90,21 @@ impl Preview {
         );
         let knot = Knot {
             angles: footwork.physical(&biped, &motion.angles),
+            footprint: footwork.course.feet.footprint,
             place: footwork.place(),
             speed: footwork.speed(),
             vertical: Vector2::zeros(),
-            weight: 1.0,
+            weight: footwork.course.gate.weight_on_bearing(),
         };
         let mut preview = Self {
-            foresight: Foresight::new(&biped, &footwork, com, &motion),
+            foresight: Foresight::new(&biped, &footwork, com, motion),
             correction: [CartState::zeros(); 2],
             body: WholeBody::new(&biped, &motion.angles),
             floor: Floor::default(),
             height: Height::default(),
             tilt: Vector2::zeros(),
             knots: [knot; 4],
+            stamp: 0,
             elapsed: 0.0,
             since_shift: 0,
             unreachable: false,
@@ -98,6 +120,17 @@ impl Preview {
         preview.knots[0] = Knot { angles: before, place, ..knot };
         preview.knots[1] = knot;
         preview
+    }
+
+    /// Goes on as `other`, a copy of this with something else asked of it, at the same instant.
+    pub fn follow(&mut self, other: &Self) {
+        let Self { elapsed, floor, height, tilt, since_shift, .. } = *self;
+        *self = Self { elapsed, floor, height, tilt, since_shift, ..other.clone() };
+    }
+
+    /// Another number whenever the plan has changed: copies of the same number are the same but for the instant.
+    pub fn stamp(&self) -> u64 {
+        self.stamp
     }
 
     /// See [`Course::admit`].
@@ -136,6 +169,7 @@ impl Preview {
     /// What is to come has changed: plays it anew. Not done for a stream that asks the same again and again.
     fn look_ahead(&mut self) {
         self.foresight.begin(&self.biped, &self.footwork);
+        self.stamp += 1;
     }
 
     /// What is in force, or will be when the walk goes on.
@@ -196,8 +230,8 @@ impl Preview {
         };
         let [_, from, to, _] = &self.knots;
         let change = to.vertical - from.vertical;
-        let vertical = self.direction_to_support(from.vertical + change * (self.elapsed / KNOT));
-        let rate = self.direction_to_support(change / KNOT);
+        let vertical = self.footprint().direction_to_support(from.vertical + change * (self.elapsed / KNOT));
+        let rate = self.footprint().direction_to_support(change / KNOT);
         // The turn that brings the vertical upright.
         (motion.angles[Joint::FootRoll], motion.angles[Joint::FootPitch]) = (vertical.y, -vertical.x);
         (motion.rates[Joint::FootRoll], motion.rates[Joint::FootPitch]) = (rate.y, -rate.x);
@@ -222,14 +256,12 @@ impl Preview {
 
     /// Absorbs how the vertical leans over the bearing sole, in support coordinates, `dt` seconds after the last time.
     pub fn sense_vertical(&mut self, lean: Vector2<f64>, dt: f64) {
-        // The newest knot is a little ahead: just before a swap it is told from the other foot.
-        if self.walk().half_step().index == self.half_step().index {
-            self.floor.sense(self.footwork.course.feet.footprint.direction_to_walk(lean), dt);
-        }
+        self.floor.sense(self.footprint().direction_to_walk(lean), dt);
     }
 
     /// Absorbs how the body is turned beyond the plan, about x and y of support coordinates [rad].
     pub fn sense_tilt(&mut self, tilt: Vector2<f64>) {
+        // The newest knot is a little ahead: just before a swap it is told from the other foot.
         if self.walk().half_step().index == self.half_step().index {
             self.tilt = tilt;
         }
@@ -238,12 +270,13 @@ impl Preview {
     /// How the vertical leans over the floor as soles now tell, in support coordinates: x and y of the unit vector [-]. The
     /// plan follows slowly.
     pub fn vertical_now(&self) -> Vector2<f64> {
-        self.direction_to_support(self.floor.lean_now())
+        self.footprint().direction_to_support(self.floor.lean_now())
     }
 
-    fn direction_to_support(&self, direction: Vector2<f64>) -> Vector2<f64> {
-        let newest = self.footwork.course.feet.footprint;
-        Footprint { side: self.half_step().support, ..newest }.direction_to_support(direction)
+    /// The foot that bears now.
+    fn footprint(&self) -> &Footprint {
+        let [_, from, to, _] = &self.knots;
+        if self.half_step().support == from.footprint.side { &from.footprint } else { &to.footprint }
     }
 
     /// Whether a leg was too short at the newest knot, so that the posture before was kept.
@@ -254,6 +287,11 @@ impl Preview {
     /// The walk that is asked for, at the newest knot.
     pub fn walk(&self) -> &Walk {
         &self.footwork.course.walk
+    }
+
+    /// The robot as a tree.
+    pub fn tree(&self) -> &dynamics::Tree {
+        &self.biped.tree
     }
 
     fn place(&self) -> f64 {
@@ -277,8 +315,8 @@ impl Preview {
 
         self.floor.advance(KNOT);
         let uphill = self.floor.lean() * (biped.sway.height_over_gravity * GRAVITY);
-        let com = self.foresight.com() + Vector2::new(self.correction[0].x, self.correction[1].x) + uphill;
-        let mut wanted = self.footwork.wanted(biped, com);
+        let correction = Vector2::new(self.correction[0].x, self.correction[1].x) + uphill;
+        let mut wanted = self.foresight.wanted(&self.footwork.course.feet.footprint, correction);
         self.height.advance(self.tilt, wanted.swinging.position.xy(), KNOT);
         wanted.swinging.position.z += self.height.of_sole();
         wanted.hip_height += self.height.of_hips();
@@ -287,6 +325,7 @@ impl Preview {
         let angles = reached.map_or(self.knots[3].angles, |angles| self.footwork.physical(biped, &angles));
         let knot = Knot {
             angles,
+            footprint: self.footwork.course.feet.footprint,
             place: self.footwork.place(),
             speed: self.footwork.speed(),
             vertical: self.floor.lean(),
@@ -294,6 +333,7 @@ impl Preview {
         };
         self.knots.rotate_left(1);
         self.knots[3] = knot;
+        self.stamp += 1;
     }
 }
 

@@ -4,6 +4,7 @@ use dynamics::{Kinematics, Leg, Unreachable};
 use model::{Joint, JointVector, Side};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2, Vector3};
 
+use crate::preview::footprint::turned_about_z;
 use crate::preview::{Biped, SolePose};
 
 /// What is wanted of a posture, in support coordinates.
@@ -29,8 +30,8 @@ pub struct WholeBody {
     change: JointVector,
     /// The pelvis' origin (the bearing leg's hip) less the centre of mass, in the last posture [m].
     hip_from_com: Vector2<f64>,
-    /// How that changed.
-    hip_change: Vector2<f64>,
+    /// How that changed from posture to posture, the last two times.
+    hip_changes: [Vector2<f64>; 2],
 }
 
 /// Share of a leg's length that is used at most: the knee keeps a bend of 15°.
@@ -47,7 +48,7 @@ impl WholeBody {
     pub fn new(biped: &Biped, angles: &JointVector) -> Self {
         let kinematics = Kinematics::standing(&biped.tree, angles);
         let hip_from_com = kinematics.origin[PELVIS].xy() - kinematics.com(&biped.tree).xy();
-        Self { angles: *angles, change: JointVector::ZERO, hip_from_com, hip_change: Vector2::zeros() }
+        Self { angles: *angles, change: JointVector::ZERO, hip_from_com, hip_changes: [Vector2::zeros(); 2] }
     }
 
     /// Tells how the angles will likely change.
@@ -67,16 +68,19 @@ impl WholeBody {
         }
         let ankle = Translation3::from(-mechanism.sole_in_foot(Side::Left));
         let foot = wanted.swinging.to_support() * ankle;
-        let heading = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), wanted.pelvis_yaw);
+        let heading = turned_about_z(wanted.pelvis_yaw);
 
-        let mut hip = wanted.com + self.hip_from_com + self.hip_change;
+        let [change, before] = self.hip_changes;
+        let mut hip = wanted.com + self.hip_from_com + change * 2.0 - before;
         let hip_height = self.within_reach(biped, wanted.hip_height, hip, &heading, &foot.translation.vector);
         let mut com = wanted.com;
+        let mut kinematics = Kinematics::default();
         for _ in 0..ROUNDS {
             let pelvis = Isometry3::from_parts(Translation3::new(hip.x, hip.y, hip_height), heading);
             legs.solve(tree, Leg(Side::Right), &pelvis, &Isometry3::identity(), &mut angles)?;
             legs.solve(tree, Leg(Side::Left), &pelvis, &foot, &mut angles)?;
-            com = Kinematics::standing(tree, &angles).com(tree).xy();
+            kinematics.stand(tree, &angles);
+            com = kinematics.com(tree).xy();
             let miss = wanted.com - com;
             if miss.amax() < NEAR {
                 break;
@@ -84,7 +88,7 @@ impl WholeBody {
             hip += miss / COM_PER_PELVIS;
         }
         self.change = angles - self.angles;
-        self.hip_change = hip - com - self.hip_from_com;
+        self.hip_changes = [hip - com - self.hip_from_com, change];
         self.hip_from_com = hip - com;
         self.angles = angles;
         Ok(angles)
@@ -117,8 +121,9 @@ impl WholeBody {
     }
 }
 
-/// The smaller of two lengths [m], rounded where they are about the same.
+/// The smaller of two lengths [m], rounded where they are about the same; twice continuously differentiable.
 fn soft_min(a: f64, b: f64) -> f64 {
-    const ROUNDING: f64 = 0.006;
-    0.5 * (a + b - ((a - b) * (a - b) + ROUNDING * ROUNDING).sqrt())
+    const ROUNDING: f64 = 0.015;
+    let near = (1.0 - (a - b).abs() / ROUNDING).max(0.0);
+    a.min(b) - near * near * near * ROUNDING / 6.0
 }

@@ -11,7 +11,7 @@ use crate::interrupt::Interrupt;
 use crate::record;
 use crate::run_controller::run_controller;
 use crate::summary::ControllerSummary;
-use crate::turns::Turns;
+use crate::turns::{Clock, Turns};
 
 /// Run the controller alone: it waits for its plant, then walks until it is asked otherwise
 #[derive(Clone, Debug, clap::Args)]
@@ -33,15 +33,19 @@ impl Controller {
 
         let mut errors = Errors::default();
         let loaded = self.config.robot(&mut errors).zip(self.config.controller(&mut errors));
-        let (robot, parameters) = errors.finish(loaded)?;
+        let (robot, mut parameters) = errors.finish(loaded)?;
+        let clock = self.runs.clock();
+        if clock == Clock::Lockstep {
+            // Operators live by the clock on the wall, and half a second in lockstep is over in a few milliseconds.
+            parameters.sources.age_limit = None;
+        }
         let fingerprint = robot.mechanism.fingerprint;
+        let begin = if self.runs.from_stand { controller::Controller::standing } else { controller::Controller::new };
         let mut controller =
-            controller::Controller::new(&robot.mechanism, robot.nominal, &parameters, Start::default())
-                .map_err(Failure::bad_input)?;
+            begin(&robot.mechanism, robot.nominal, &parameters, Start::default()).map_err(Failure::bad_input)?;
 
         let ControllerEnd { mut setpoints, measurements, requests, reports } =
             ControllerEnd::connect(&self.instance.instance()?, fingerprint)?;
-        let clock = self.runs.clock();
         let (mut record, record_end) = record::of_controller(clock, self.part.out.as_deref(), reports)?;
         let mut turns = Turns::new(clock, measurements, "plant", self.runs.ticks(), interrupt);
         let mut inbox = Inbox::new(requests);

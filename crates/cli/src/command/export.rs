@@ -6,7 +6,10 @@ use clap::Subcommand;
 use model::Mechanism;
 
 use super::print_line;
+use crate::configuration::Errors;
 use crate::failure::{Failure, Outcome};
+use crate::mjcf::mjcf_text;
+use crate::python_messages::python_messages;
 use crate::urdf::urdf_text;
 
 /// Write the robot for other programs
@@ -27,13 +30,42 @@ enum Format {
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
+    /// As MJCF, on stdout or into a file: robot, floor and torque motors, ready for MuJoCo
+    Mjcf {
+        /// The robot
+        #[arg(long, value_name = "FILE", default_value = "config/mechanism.toml")]
+        mechanism: PathBuf,
+        /// Friction, slope, payload and integration step
+        #[arg(long, value_name = "FILE", default_value = "config/plant.toml")]
+        plant: PathBuf,
+        /// Where to; stdout if absent
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
+    /// The messages in shared memory as a Python module, on stdout or into a file
+    Python {
+        /// Where to; stdout if absent
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
 }
 
 impl Export {
     pub fn run(self) -> Result<Outcome, Failure> {
-        let Format::Urdf { mechanism, out } = self.format;
-        let mechanism = Mechanism::load(&mechanism).map_err(Failure::bad_input)?;
-        let text = urdf_text(&mechanism).map_err(Failure::new)?;
+        let (text, out) = match self.format {
+            Format::Urdf { mechanism, out } => {
+                let mechanism = Mechanism::load(&mechanism).map_err(Failure::bad_input)?;
+                (urdf_text(&mechanism).map_err(Failure::new)?, out)
+            }
+            Format::Mjcf { mechanism, plant, out } => {
+                let mut errors = Errors::default();
+                let mechanism = errors.note(Mechanism::load(&mechanism));
+                let parameters = errors.note(plant::Parameters::load(&plant));
+                let (mechanism, parameters) = errors.finish(mechanism.zip(parameters))?;
+                (mjcf_text(&mechanism, &parameters), out)
+            }
+            Format::Python { out } => (python_messages(), out),
+        };
         match out {
             None => print_line(text.trim_end())?,
             Some(file) => {

@@ -90,6 +90,9 @@ struct LoopOptions {
     /// Tick for tick with the other side, deterministic and as fast as it goes, instead of in real time
     #[arg(long)]
     lockstep: bool,
+    /// Begin at a stand, with the feet side by side, instead of in stride
+    #[arg(long)]
+    from_stand: bool,
 }
 
 impl LoopOptions {

@@ -2,11 +2,15 @@
 
 use std::path::PathBuf;
 
+use balance::Preview;
+use gait::{Start, Walk};
+use model::Motion;
 use plant::Setpoint;
 use wire::PlantEnd;
 
 use super::{InstanceOption, LoopOptions, PartOptions, print};
-use crate::configuration::{ConfigOptions, Errors};
+use crate::configuration::{ConfigOptions, Errors, Robot};
+use crate::engine::{self, Engine, OutsideEngine, Setup};
 use crate::failure::{Failure, Outcome};
 use crate::interrupt::Interrupt;
 use crate::record;
@@ -31,6 +35,9 @@ pub struct Plant {
     /// Pushes and sensor faults, as in config/disturbances_demo.toml
     #[arg(long, value_name = "FILE")]
     disturbances: Option<PathBuf>,
+    /// Who computes the robot's physics
+    #[arg(long, value_name = "NAME", default_value = "rust")]
+    engine: Engine,
     /// End half a second after the robot has fallen
     #[arg(long)]
     end_when_fallen: bool,
@@ -45,9 +52,16 @@ impl Plant {
         let loaded = self.config.robot(&mut errors).zip(self.config.plant(&mut errors));
         let disturbances = ConfigOptions::disturbances(self.disturbances.as_deref(), &mut errors);
         let ((robot, parameters), disturbances) = errors.finish(loaded.zip(disturbances))?;
-        let start = robot.nominal.at(0.0);
+        let start = if self.runs.from_stand { self.stand(&robot)? } else { robot.nominal.at(0.0) };
         let period = PERIOD.as_secs_f64();
         let mut plant = plant::Plant::new(&robot.mechanism, &parameters, &start, period, self.seed);
+        let mut outside = match self.engine {
+            Engine::Rust => None,
+            Engine::Mujoco => {
+                let setup = Setup::new(&robot.mechanism, &parameters, &disturbances, &start, self.seed);
+                Some(OutsideEngine::start(engine::mujoco()?, &setup).map_err(Failure::new)?)
+            }
+        };
         plant.disturbances = disturbances;
 
         let PlantEnd { setpoints, mut measurements } =
@@ -57,10 +71,14 @@ impl Plant {
         let mut turns = Turns::new(clock, setpoints, "controller", self.runs.ticks(), interrupt);
 
         let stands = Setpoint { angles: start.angles, ..Setpoint::default() };
-        let run = run_plant(&mut plant, stands, &mut turns, &mut measurements, &mut record, self.end_when_fallen);
+        let step = |plant: &mut plant::Plant, setpoint: &Setpoint| match &mut outside {
+            None => Ok(plant.step(setpoint)),
+            Some(engine) => engine.step(plant, setpoint),
+        };
+        let run = run_plant(&mut plant, step, stands, &mut turns, &mut measurements, &mut record, self.end_when_fallen);
         drop(record);
         let log_gaps = record_end.finish()?;
-        let run = run.map_err(Failure::new)?;
+        let run = run?;
 
         let summary = PlantSummary {
             ticks: run.ticks,
@@ -71,5 +89,15 @@ impl Plant {
         };
         print(json, &summary)?;
         Ok(Outcome::fine_if(run.fell_at.is_none()))
+    }
+
+    /// The posture at which the controller begins, too.
+    fn stand(&self, robot: &Robot) -> Result<Motion, Failure> {
+        let mut errors = Errors::default();
+        let loaded = self.config.controller(&mut errors);
+        let gait = errors.finish(loaded)?.gait;
+        let walk = Walk::new(robot.nominal.clone(), &robot.mechanism, &gait, Start::default());
+        let preview = Preview::standing(&robot.mechanism, walk.map_err(Failure::bad_input)?);
+        Ok(preview.physical_motion())
     }
 }

@@ -1,11 +1,14 @@
 //! `halfstep send`: one request, and what became of it.
+//!
+//! It lasts until another request changes it and holds command of nothing; with `--for` it holds command for that time,
+//! and then the walk comes to a stand.
 
 use std::time::Duration;
 
 use clap::Subcommand;
-use wire::{Intent, OperatorEnd, Request, Source, Verdict};
+use wire::{Intent, Lasting, OperatorEnd, Request, Source, Verdict};
 
-use super::{InstanceOption, print_json, print_line};
+use super::{InstanceOption, duration, print_json, print_line};
 use crate::failure::{Failure, Outcome};
 use crate::words::{self, ReplyInJson};
 
@@ -14,6 +17,10 @@ use crate::words::{self, ReplyInJson};
 pub struct Send {
     #[command(flatten)]
     instance: InstanceOption,
+    /// Keep command for this time, e.g. 5s: sources with less priority are refused, and at its end, unless something else
+    /// was sent, the walk comes to a stand. Without it what is asked lasts until another request changes it
+    #[arg(long = "for", value_name = "DURATION", value_parser = duration, global = true)]
+    duration: Option<Duration>,
     #[command(subcommand)]
     asked: Asked,
 }
@@ -53,7 +60,14 @@ const PATIENCE: Duration = Duration::from_secs(2);
 
 impl Send {
     pub fn run(self, json: bool) -> Result<Outcome, Failure> {
-        let request = self.asked.request();
+        let request = match self.duration {
+            None => self.asked.request(),
+            Some(duration) => Request {
+                lasting: Lasting::WhileSpeaking,
+                age_limit: Some(duration.as_secs_f64()),
+                ..self.asked.request()
+            },
+        };
         let operator = OperatorEnd::connect(&self.instance.instance()?)?;
         let reply = operator.requests.ask(&(&request).into(), PATIENCE)?.checked().map_err(Failure::new)?;
         if json {

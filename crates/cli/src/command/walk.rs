@@ -5,10 +5,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use wire::{ConnectError, Instance, InstanceName, Leftovers, ObserverEnd, OperatorEnd, Verdict};
+use wire::{
+    ConnectError, Instance, InstanceName, Intent, Leftovers, ObserverEnd, OperatorEnd, Request, Source, Verdict,
+};
 
 use super::{LoopOptions, print, print_line, write_pictures};
 use crate::configuration::{ConfigOptions, Errors, Robot};
+use crate::engine::{self, Engine};
 use crate::failure::{Failure, Outcome};
 use crate::interrupt::Interrupt;
 use crate::operator::Operator;
@@ -40,6 +43,9 @@ pub struct Walk {
     /// Pushes and sensor faults, as in config/disturbances_demo.toml
     #[arg(long, value_name = "FILE")]
     disturbances: Option<PathBuf>,
+    /// Who simulates the robot: Halfstep itself, or MuJoCo, which is installed on first use
+    #[arg(long, value_name = "NAME", default_value = "rust")]
+    plant: Engine,
     /// Which robot, if others shall talk to it; a name of its own if absent
     #[arg(long, value_name = "NAME")]
     instance: Option<InstanceName>,
@@ -71,11 +77,18 @@ impl Walk {
         self.config.plant(&mut errors);
         ConfigOptions::disturbances(self.disturbances.as_deref(), &mut errors);
         let steps = self.steps(&mut errors);
-        let (robot, steps) = errors.finish(robot.zip(steps))?;
+        let (robot, mut steps) = errors.finish(robot.zip(steps))?;
+        if self.runs.from_stand {
+            let walk = Request { intent: Some(Intent::Walk), ..Request::by(Source::Script) };
+            steps.insert(0, Step { time: Some(Duration::ZERO), request: walk });
+        }
         let instance = match &self.instance {
             Some(name) => Instance::new(name.as_str())?,
             None => Instance::new(&format!("walk-{}", std::process::id()))?,
         };
+        if self.plant == Engine::Mujoco {
+            engine::mujoco()?;
+        }
         let folder = self.folder()?;
 
         let mut walking = self.start(&instance, &folder, &steps)?;
@@ -141,6 +154,7 @@ impl Walk {
         operator.send()?;
         let mut of_plant = self.arguments(instance, folder);
         of_plant.extend(["--end-when-fallen".into(), "--seed".into(), self.seed.to_string().into()]);
+        of_plant.extend(["--engine".into(), self.plant.name().into()]);
         if let Some(file) = &self.disturbances {
             of_plant.extend(["--disturbances".into(), file.into()]);
         }
@@ -157,6 +171,9 @@ impl Walk {
         }
         if self.runs.lockstep {
             arguments.push("--lockstep".into());
+        }
+        if self.runs.from_stand {
+            arguments.push("--from-stand".into());
         }
         arguments
     }
@@ -177,6 +194,7 @@ impl Walk {
             requests: controller.requests,
             duration_s,
             seed: self.seed,
+            plant: self.plant.name(),
             instance: instance.name().to_string(),
             clock: match self.runs.clock() {
                 Clock::Realtime => "realtime",

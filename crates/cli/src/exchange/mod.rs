@@ -6,3 +6,4 @@ pub mod report;
 pub mod request;
 pub mod row;
 pub mod setpoint;
+pub mod source;

@@ -55,6 +55,9 @@ pub fn mode(mode: Mode) -> wire::Mode {
         Mode::Holding => wire::Mode::Holding,
         Mode::Fallen => wire::Mode::Fallen,
         Mode::Starting => wire::Mode::Starting,
+        Mode::Standing => wire::Mode::Standing,
+        Mode::Stopping => wire::Mode::Stopping,
+        Mode::Faulted => wire::Mode::Faulted,
     }
 }
 

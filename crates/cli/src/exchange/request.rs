@@ -1,13 +1,15 @@
 //! Request, operator → wire → controller.
 
-use controller::Intent;
+use controller::{Asked, Intent, Lasting};
 use wire::{MessageFault, Reason, RequestMessage};
 
-/// The tick before which it must not take effect, and what is asked of gait and controller.
+use super::source;
+
+/// The tick before which it must not take effect, and what is asked.
 ///
 /// # Errors
 /// Why no controller of this version can grant it.
-pub fn for_controller(message: &RequestMessage) -> Result<(u64, (gait::Request, Option<Intent>)), Reason> {
+pub fn for_controller(message: &RequestMessage) -> Result<(u64, Asked), Reason> {
     let request = message.checked().map_err(|fault| match fault {
         MessageFault::NotFinite { .. } => Reason::NotFinite,
         _ => Reason::NotUnderstood,
@@ -18,24 +20,40 @@ pub fn for_controller(message: &RequestMessage) -> Result<(u64, (gait::Request, 
         Some(wire::Intent::Walk) => Some(Intent::Walk),
         Some(wire::Intent::Stop) => Some(Intent::Stop),
         Some(wire::Intent::Hold) => Some(Intent::Hold),
-        // A robot that lies cannot get up, so that there is nothing to reset to.
-        Some(wire::Intent::Reset) => return Err(Reason::NoWayBack),
+        Some(wire::Intent::Reset) => Some(Intent::Reset),
     };
-    let request = gait::Request { turn, speed, extension };
-    if request == gait::Request::default() && intent.is_none() {
+    let lasting = match request.lasting {
+        wire::Lasting::UntilChanged | wire::Lasting::Farewell => Lasting::UntilChanged,
+        wire::Lasting::WhileSpeaking => Lasting::WhileSpeaking(request.age_limit),
+    };
+    let source = source::for_controller(request.source);
+    let asked = Asked { request: gait::Request { turn, speed, extension }, intent, source, lasting };
+    // Of a stream that is a sign of life or a good-bye; of anybody else it is a mistake.
+    if asked.is_empty() && request.lasting == wire::Lasting::UntilChanged {
         return Err(Reason::Empty);
     }
-    Ok((not_before, (request, intent)))
+    Ok((not_before, asked))
 }
 
 #[cfg(test)]
 mod tests {
+    use controller::Source;
+
     use super::*;
 
     #[test]
-    fn what_asks_for_nothing_is_refused() {
+    fn what_asks_for_nothing_is_refused_unless_it_is_of_a_stream() {
         let empty = wire::Request::by(wire::Source::Console);
         assert_eq!(for_controller(&(&empty).into()), Err(Reason::Empty));
+        for (lasting, age_limit, arrives) in [
+            (wire::Lasting::WhileSpeaking, None, Lasting::WhileSpeaking(None)),
+            (wire::Lasting::WhileSpeaking, Some(2.0), Lasting::WhileSpeaking(Some(2.0))),
+            (wire::Lasting::Farewell, None, Lasting::UntilChanged),
+        ] {
+            let (_, asked) = for_controller(&(&wire::Request { lasting, age_limit, ..empty }).into()).unwrap();
+            assert!(asked.is_empty());
+            assert_eq!(asked.lasting, arrives);
+        }
     }
 
     #[test]
@@ -53,8 +71,9 @@ mod tests {
             turn: Some(0.1),
             ..wire::Request::by(wire::Source::Script)
         };
-        let (not_before, (asked, intent)) = for_controller(&(&request).into()).unwrap();
-        assert_eq!((not_before, intent), (5, Some(Intent::Stop)));
-        assert_eq!(asked, gait::Request { turn: Some(0.1), speed: None, extension: None });
+        let (not_before, asked) = for_controller(&(&request).into()).unwrap();
+        assert_eq!((not_before, asked.source, asked.lasting), (5, Source::Script, Lasting::UntilChanged));
+        assert_eq!(asked.request, gait::Request { turn: Some(0.1), speed: None, extension: None });
+        assert!(asked.is_stop());
     }
 }

@@ -117,6 +117,22 @@ impl<'d> Table<'d> {
         found.map(|(_, choice)| choice)
     }
 
+    /// An array that names each of `choices` once, in an order that means something; `None` after noting what is wrong.
+    pub fn order<T: Copy, const N: usize>(&self, key: &str, choices: [(&str, T); N]) -> Option<[T; N]> {
+        let names = choices.map(|(name, _)| format!("\"{name}\""));
+        let must = format!("must be an array that names each of {} once", names.join(", "));
+        let written = self.require(key, &must)?.get_ref().as_array();
+        let places = written.filter(|written| written.len() == N).and_then(|written| {
+            let place = |name| choices.iter().position(|(choice, _)| Some(*choice) == name);
+            let places: Option<Vec<usize>> = written.iter().map(|value| place(value.get_ref().as_str())).collect();
+            places.filter(|places| (0..N).all(|place| places.contains(&place)))
+        });
+        if places.is_none() {
+            self.refuse(key, &must);
+        }
+        places.map(|places| std::array::from_fn(|rank| choices[places[rank]].1))
+    }
+
     /// The table under a key.
     pub fn table(&self, key: &str) -> Table<'d> {
         let must = "must be a table";

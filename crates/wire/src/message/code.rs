@@ -60,7 +60,7 @@ pub(crate) use codes;
 #[cfg(test)]
 mod tests {
     use super::Code;
-    use crate::message::{Fault, Intent, Mode, Reason, Source, Verdict};
+    use crate::message::{Fault, Intent, Lasting, Mode, Reason, Source, Verdict};
 
     fn there_and_back<T: Code + PartialEq + std::fmt::Debug>(all: &[T], code: impl Fn(T) -> u32) {
         for &variant in all {
@@ -72,6 +72,7 @@ mod tests {
     #[test]
     fn every_code_leads_back_to_its_variant() {
         there_and_back(Intent::ALL, Intent::code);
+        there_and_back(Lasting::ALL, Lasting::code);
         there_and_back(Source::ALL, Source::code);
         there_and_back(Verdict::ALL, Verdict::code);
         there_and_back(Reason::ALL, Reason::code);

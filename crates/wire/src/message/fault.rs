@@ -15,6 +15,16 @@ pub enum MessageFault {
         /// What stands there.
         value: f64,
     },
+    /// A number is below 0.
+    #[error("{message}: {field} is {value}; it must be at least 0")]
+    Negative {
+        /// Which message.
+        message: &'static str,
+        /// Which field of it.
+        field: &'static str,
+        /// What stands there.
+        value: f64,
+    },
     /// The number of a joint is NaN or infinite.
     #[error("{message}: {field} of joint {} ({}) is {value}; it must be finite", joint.number(), joint.name())]
     JointNotFinite {
@@ -57,6 +67,11 @@ pub(crate) struct Check(pub &'static str);
 impl Check {
     pub fn number(&self, field: &'static str, value: f64) -> Result<f64, MessageFault> {
         if value.is_finite() { Ok(value) } else { Err(MessageFault::NotFinite { message: self.0, field, value }) }
+    }
+
+    pub fn not_negative(&self, field: &'static str, value: f64) -> Result<f64, MessageFault> {
+        let value = self.number(field, value)?;
+        if value >= 0.0 { Ok(value) } else { Err(MessageFault::Negative { message: self.0, field, value }) }
     }
 
     pub fn numbers<const N: usize>(&self, field: &'static str, values: &[f64; N]) -> Result<[f64; N], MessageFault> {

@@ -20,9 +20,9 @@ use iceoryx2::prelude::ZeroCopySend;
 
 pub use fault::MessageFault;
 pub use measurement::{Measurement, MeasurementMessage};
-pub use reply::{Granted, Reason, Reply, ReplyMessage, Verdict};
+pub use reply::{Bound, Granted, InCommand, Reason, Reply, ReplyMessage, Verdict};
 pub use report::{Fault, Mode, Report, ReportMessage};
-pub use request::{Intent, Request, RequestMessage, Source};
+pub use request::{Intent, Lasting, Request, RequestMessage, Source};
 pub use setpoint::{Setpoint, SetpointMessage};
 
 /// The tick of a message that has not been written yet. No writer counts that far.

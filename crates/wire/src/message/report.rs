@@ -12,12 +12,18 @@ codes! {
     Mode {
         /// Half-step after half-step.
         Walking = 0 "walking",
-        /// On both feet: braking, then still.
+        /// On both feet, in stride.
         Holding = 1 "holding",
         /// Lying, or about to.
         Fallen = 2 "fallen",
         /// On both feet, the weight going to the foot that is to bear first.
         Starting = 3 "starting",
+        /// On both feet, side by side.
+        Standing = 4 "standing",
+        /// The last half-steps before a stand.
+        Stopping = 5 "stopping",
+        /// Standing until a reset, since something went wrong.
+        Faulted = 6 "faulted",
     }
 }
 

@@ -34,9 +34,22 @@ codes! {
     }
 }
 
+codes! {
+    /// How long what is asked lasts.
+    Lasting {
+        /// Until another request changes it: a single request.
+        UntilChanged = 0 "until changed",
+        /// Only while its source goes on speaking: a request of a stream. When the source has been silent for longer than
+        /// the age limit, the walk comes to a stand. A request for nothing is a sign of life.
+        WhileSpeaking = 1 "while its source speaks",
+        /// From now on until changed, as all that this source asked for: the end of a stream. May ask for nothing.
+        Farewell = 2 "after its source has left",
+    }
+}
+
 /// A [`Request`] as it lies in shared memory.
 #[derive(Clone, Copy, Debug, PartialEq, ZeroCopySend)]
-#[type_name("halfstep.Request.v1")]
+#[type_name("halfstep.Request.v2")]
 #[repr(C)]
 pub struct RequestMessage {
     /// The controller's tick before which it must not take effect; 0 is at once.
@@ -48,14 +61,16 @@ pub struct RequestMessage {
     pub intent: u32,
     /// A [`Source`].
     pub source: u32,
-    /// Always 0.
-    pub pad: u32,
+    /// A [`Lasting`].
+    pub lasting: u32,
     /// `α`: turn per full step [rad], positive to the left.
     pub turn: f64,
     /// `c`: 1 is the nominal speed.
     pub speed: f64,
     /// `β`: step extension [rad].
     pub extension: f64,
+    /// How long the source may be silent [s], 0 for the controller's own limit. Counts only while the source speaks.
+    pub age_limit: f64,
 }
 
 /// A change of the walk; what is `None` stays as it is. The set is atomic: it takes effect whole or not at all.
@@ -73,12 +88,25 @@ pub struct Request {
     pub speed: Option<f64>,
     /// `β`: step extension [rad].
     pub extension: Option<f64>,
+    /// How long what is asked lasts.
+    pub lasting: Lasting,
+    /// How long the source may be silent [s]; `None` is the controller's own limit. Counts only while the source speaks.
+    pub age_limit: Option<f64>,
 }
 
 impl Request {
-    /// A request for nothing, to be filled in.
+    /// A request for nothing that lasts until changed, to be filled in.
     pub fn by(source: Source) -> Self {
-        Self { not_before: 0, source, intent: None, turn: None, speed: None, extension: None }
+        Self {
+            not_before: 0,
+            source,
+            intent: None,
+            turn: None,
+            speed: None,
+            extension: None,
+            lasting: Lasting::UntilChanged,
+            age_limit: None,
+        }
     }
 }
 
@@ -92,7 +120,7 @@ impl RequestMessage {
     /// In `present`: `intent` is asked for.
     pub const INTENT: u32 = 8;
 
-    /// The request, if its codes are known and every number that is present is finite.
+    /// The request, if its codes are known, every number that is present is finite, and the age limit is not negative.
     pub fn checked(&self) -> Result<Request, MessageFault> {
         let check = Check("request");
         const ALL: u32 =
@@ -104,6 +132,11 @@ impl RequestMessage {
         let number = |bit, field, value| {
             if self.present & bit != 0 { check.number(field, value).map(Some) } else { Ok(None) }
         };
+        let lasting = check.code("lasting", self.lasting)?;
+        let age_limit = match lasting {
+            Lasting::WhileSpeaking => Some(check.not_negative("age_limit", self.age_limit)?),
+            Lasting::UntilChanged | Lasting::Farewell => None,
+        };
         Ok(Request {
             not_before: self.not_before,
             source: check.code("source", self.source)?,
@@ -111,6 +144,8 @@ impl RequestMessage {
             turn: number(Self::TURN, "turn", self.turn)?,
             speed: number(Self::SPEED, "speed", self.speed)?,
             extension: number(Self::EXTENSION, "extension", self.extension)?,
+            lasting,
+            age_limit: age_limit.filter(|&limit| limit > 0.0),
         })
     }
 }
@@ -126,10 +161,11 @@ impl From<&Request> for RequestMessage {
                 | bit(request.intent.is_some(), Self::INTENT),
             intent: request.intent.map_or(0, Intent::code),
             source: request.source.code(),
-            pad: 0,
+            lasting: request.lasting.code(),
             turn: request.turn.unwrap_or(0.0),
             speed: request.speed.unwrap_or(0.0),
             extension: request.extension.unwrap_or(0.0),
+            age_limit: request.age_limit.unwrap_or(0.0),
         }
     }
 }
@@ -147,6 +183,20 @@ mod tests {
     }
 
     #[test]
+    fn a_streams_age_limit_arrives_and_no_others() {
+        for (lasting, age_limit, arrives) in [
+            (Lasting::WhileSpeaking, Some(0.3), Some(0.3)),
+            (Lasting::WhileSpeaking, None, None),
+            (Lasting::UntilChanged, Some(0.3), None),
+            (Lasting::Farewell, Some(0.3), None),
+        ] {
+            let request = Request { lasting, age_limit, ..Request::by(Source::Teleop) };
+            let checked = RequestMessage::from(&request).checked();
+            assert_eq!(checked, Ok(Request { age_limit: arrives, ..request }));
+        }
+    }
+
+    #[test]
     fn what_is_present_must_make_sense() {
         let good = RequestMessage::from(&Request {
             intent: Some(Intent::Stop),
@@ -159,6 +209,11 @@ mod tests {
         assert!(
             text(RequestMessage { source: 77, ..good }).starts_with("request: source is 77; known are 0 (console)")
         );
+        assert!(text(RequestMessage { lasting: 3, ..good }).starts_with("request: lasting is 3; known are 0 (until"));
+        let stream = RequestMessage { lasting: Lasting::WhileSpeaking.code(), ..good };
+        let aged = |age_limit| text(RequestMessage { age_limit, ..stream });
+        assert_eq!(aged(-1.0), "request: age_limit is -1; it must be at least 0");
+        assert_eq!(aged(f64::INFINITY), "request: age_limit is inf; it must be finite");
         assert!(text(RequestMessage { present: 16, ..good }).starts_with("request: present is 16; known are sums"));
     }
 }

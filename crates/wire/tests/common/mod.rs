@@ -67,10 +67,11 @@ pub fn request(turn: f64) -> RequestMessage {
         present: RequestMessage::TURN,
         intent: 0,
         source: 0,
-        pad: 0,
+        lasting: 0,
         turn,
         speed: 0.0,
         extension: 0.0,
+        age_limit: 0.0,
     }
 }
 

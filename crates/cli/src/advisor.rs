@@ -1,0 +1,76 @@
+//! Who settles the controller's inquiries: the loop itself in lockstep, so that a run depends on its inputs only; another
+//! thread in real time, so that no tick waits for it.
+
+use std::thread::JoinHandle;
+
+use controller::{Controller, Inquiry};
+use crossbeam::channel::{Receiver, Sender, bounded};
+
+use crate::turns::Clock;
+
+/// Settles one inquiry after the other.
+pub enum Advisor {
+    /// Within the loop.
+    Here,
+    /// Beside the loop.
+    Beside {
+        /// Inquiries to settle; `None` once it is to end.
+        open: Option<Sender<Box<Inquiry>>>,
+        /// Settled ones.
+        settled: Receiver<Box<Inquiry>>,
+        /// Ends with the sender.
+        thread: Option<JoinHandle<()>>,
+    },
+}
+
+impl Advisor {
+    /// For a clock.
+    pub fn new(clock: Clock) -> Self {
+        if clock == Clock::Lockstep {
+            return Advisor::Here;
+        }
+        let (open, inbox) = bounded::<Box<Inquiry>>(1);
+        let (outbox, settled) = bounded(1);
+        let thread = std::thread::spawn(move || {
+            for mut inquiry in inbox {
+                inquiry.settle();
+                if outbox.send(inquiry).is_err() {
+                    break;
+                }
+            }
+        });
+        Advisor::Beside { open: Some(open), settled, thread: Some(thread) }
+    }
+
+    /// Takes what is to be settled and gives back what is. Waits for nothing beside the loop.
+    pub fn serve(&mut self, controller: &mut Controller) {
+        match self {
+            Advisor::Here => {
+                if let Some(mut inquiry) = controller.inquiry() {
+                    inquiry.settle();
+                    controller.give_back(inquiry);
+                }
+            }
+            Advisor::Beside { open, settled, .. } => {
+                if let Ok(inquiry) = settled.try_recv() {
+                    controller.give_back(inquiry);
+                }
+                // There is one inquiry at most, so there is room for it.
+                if let (Some(open), Some(inquiry)) = (open, controller.inquiry()) {
+                    let _ = open.try_send(inquiry);
+                }
+            }
+        }
+    }
+}
+
+impl Drop for Advisor {
+    fn drop(&mut self) {
+        if let Advisor::Beside { open, thread, .. } = self {
+            open.take();
+            if let Some(thread) = thread.take() {
+                let _ = thread.join();
+            }
+        }
+    }
+}

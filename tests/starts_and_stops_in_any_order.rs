@@ -1,0 +1,21 @@
+//! Whatever an operator does in whatever order – change the walk, stop it, hold it, take that back, start again – the
+//! robot does not fall, each stop ends in a stand and each start in walking.
+//! `cargo run --release -p halfstep-survey -- start-stop` plays a thousand sequences.
+
+use halfstep_tests::random;
+use halfstep_tests::sequence::{self, Tally};
+use halfstep_tests::walking::{Walking, controller_parameters};
+
+#[test]
+fn without_a_fall_and_without_a_stuck_mode() {
+    let limits = controller_parameters().gait.limits;
+    let mut all = Tally::default();
+    for seed in 5000..5008 {
+        let played = sequence::play(&mut Walking::begin(seed), &mut random(seed), &limits, 12);
+        let tally = played.unwrap_or_else(|trouble| panic!("seed {seed}: {trouble:?}"));
+        all.stops += tally.stops;
+        all.starts += tally.starts;
+        all.changes += tally.changes;
+    }
+    assert!(all.stops > 10 && all.starts > 10 && all.changes > 20, "the sequences do what they should: {all:?}");
+}

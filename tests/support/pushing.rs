@@ -1,0 +1,68 @@
+//! Pushes at a chosen place of the half-step, told from the robot itself.
+
+use controller::{Intent, Mode};
+use gait::Request;
+use model::Side;
+use nalgebra::Vector3;
+
+use crate::walking::Walking;
+
+/// How long a push lasts [s].
+pub const PUSH_DURATION: f64 = 0.1;
+/// How long a robot must walk on to have survived [s].
+pub const WALKS_ON: f64 = 6.0;
+
+/// Whither the trunk is pushed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// The way the bearing foot points.
+    Forward,
+    /// Against it.
+    Back,
+    /// Outward over the bearing foot.
+    ToBearing,
+    /// Towards the swinging foot.
+    ToSwing,
+}
+
+impl Direction {
+    /// All four.
+    pub const ALL: [Direction; 4] = [Direction::Forward, Direction::Back, Direction::ToBearing, Direction::ToSwing];
+
+    /// In world axes, for a robot that bears on `support`.
+    fn in_world(self, walking: &Walking, support: Side) -> Vector3<f64> {
+        let ahead = walking.plant.truth().soles[support.index()].rotation * Vector3::x();
+        let ahead = Vector3::new(ahead.x, ahead.y, 0.0).normalize();
+        let left = Vector3::z().cross(&ahead);
+        let to_bearing = if support == Side::Right { -left } else { left };
+        match self {
+            Direction::Forward => ahead,
+            Direction::Back => -ahead,
+            Direction::ToBearing => to_bearing,
+            Direction::ToSwing => -to_bearing,
+        }
+    }
+}
+
+/// The walk by `request` at a progress of a half-step, long after its beginning; `None` if it falls before.
+pub fn walk_to(seed: u64, request: Request, half_step: u64, progress: f64) -> Option<Walking> {
+    let mut walking = Walking::begin(seed);
+    let report = walking.ask(request, Some(Intent::Walk));
+    // The slowest half-step takes about as many seconds as its inverse speed.
+    let patience = 2.0 * half_step as f64 / report.command.speed;
+    let there = |half_step_now: u64, progress_now: f64| {
+        half_step_now > half_step || (half_step_now == half_step && progress_now >= progress)
+    };
+    walking.walk_until(patience, |report| there(report.half_step.index, report.half_step.progress)).ok()?;
+    Some(walking)
+}
+
+/// Whether a copy of `walking`, pushed now by an impulse of so many N·s, still walks [`WALKS_ON`] seconds later.
+pub fn survives(walking: &Walking, direction: Direction, impulse: f64) -> bool {
+    let mut pushed = walking.clone();
+    let support = pushed.tick(None).half_step.support;
+    let push = direction.in_world(&pushed, support) * impulse;
+    pushed.plant.push(push, PUSH_DURATION);
+    let fallen = pushed.walk(WALKS_ON).has_fallen();
+    !fallen && pushed.tick(None).mode == Mode::Walking
+}

@@ -1,0 +1,35 @@
+//! Many walks, on all cores.
+
+use std::io::IsTerminal;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// `walk(0)` to `walk(count - 1)`, in this order whoever is first. Somebody who watches is told how far it is.
+pub fn on_all_cores<T: Send>(count: usize, walk: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let results: Vec<Mutex<Option<T>>> = (0..count).map(|_| Mutex::new(None)).collect();
+    let is_watched = std::io::stderr().is_terminal();
+    let worker = || {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(place) = results.get(index) else { break };
+            let result = walk(index);
+            *place.lock().expect("no walk panicked") = Some(result);
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            if is_watched {
+                eprint!("\r{done}/{count} ");
+            }
+        }
+    };
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 1..cores {
+            scope.spawn(worker);
+        }
+        worker();
+    });
+    if is_watched {
+        eprintln!();
+    }
+    results.into_iter().map(|place| place.into_inner().expect("no walk panicked").expect("all were walked")).collect()
+}

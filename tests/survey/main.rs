@@ -1,0 +1,65 @@
+//! The long acceptance runs: what walks, what falls, and by how little.
+//!
+//! `cargo run --release -p halfstep-survey -- NAME`, with `--help` for what can be chosen. Controller and plant walk in
+//! lockstep in one process, on all cores, with the committed configuration; a seed decides everything. Each survey prints
+//! a table and ends with exit code 1 if something that must not happen happened.
+
+mod asked;
+mod cores;
+mod grid;
+mod margins;
+mod needs;
+mod playback;
+mod pushes;
+mod single;
+mod start_stop;
+mod streams;
+mod table;
+mod variations;
+mod watched;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+#[derive(Parser)]
+#[command(about, long_about = None)]
+struct Arguments {
+    #[command(subcommand)]
+    survey: Survey,
+}
+
+/// One survey each, one file each.
+#[derive(Subcommand)]
+enum Survey {
+    /// Speed, turn and extension, each alone, over more than is granted
+    Single(single::Options),
+    /// Speed, turn and extension in every combination of a grid
+    Grid(grid::Options),
+    /// Random requests, one after the other
+    Streams(streams::Options),
+    /// Random sequences of start, walk, change, stop, hold, start again
+    StartStop(start_stop::Options),
+    /// The largest push survived, by phase of the half-step and direction
+    Pushes(pushes::Options),
+    /// Other floors, masses, loads, slopes and delays than the controller believes
+    Variations(variations::Options),
+    /// The paper's need against ours: leans, and what falls without
+    Needs(needs::Options),
+    /// The predicted least margin of half-steps against the measured one
+    Margins(margins::Options),
+}
+
+fn main() -> ExitCode {
+    let passed = match &Arguments::parse().survey {
+        Survey::Single(options) => single::survey(options),
+        Survey::Grid(options) => grid::survey(options),
+        Survey::Streams(options) => streams::survey(options),
+        Survey::StartStop(options) => start_stop::survey(options),
+        Survey::Pushes(options) => pushes::survey(options),
+        Survey::Variations(options) => variations::survey(options),
+        Survey::Needs(options) => needs::survey(options),
+        Survey::Margins(options) => margins::survey(options),
+    };
+    if passed { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}

@@ -1,0 +1,113 @@
+//! Margins: the least margin of each half-step as the plan predicts it against what is then measured.
+
+use controller::Mode;
+use gait::Command;
+use halfstep_tests::mechanism;
+use halfstep_tests::walking::Walking;
+
+use crate::cores::on_all_cores;
+use crate::streams::Source;
+use crate::table;
+use crate::watched::{BETWEEN_SWAPS, Watched};
+
+#[derive(clap::Args)]
+pub struct Options {
+    /// How many random streams
+    #[arg(long, default_value_t = 20)]
+    seeds: u64,
+    /// How long each
+    #[arg(long, default_value_t = 120.0)]
+    seconds: f64,
+}
+
+/// A prediction is good if it is no more than this off [m].
+const GOOD: f64 = 0.01;
+/// Share of the half-steps that must be predicted well.
+const GOOD_SHARE: f64 = 0.95;
+/// Width of the histogram's bins [m], and how many there are on each side.
+const BIN: f64 = 0.005;
+const BINS: i32 = 6;
+
+/// The least margins of a half-step [m].
+struct HalfStep {
+    predicted: f64,
+    measured: f64,
+    /// Whether nothing was changed in it or in the one before.
+    steady: bool,
+}
+
+pub fn survey(options: &Options) -> bool {
+    let walks = on_all_cores(options.seeds as usize, |seed| walk(seed as u64, options.seconds));
+    let falls = walks.iter().filter(|(_, fell)| *fell).count();
+    let half_steps: Vec<HalfStep> = walks.into_iter().flat_map(|(half_steps, _)| half_steps).collect();
+    let (steady, changing): (Vec<&HalfStep>, Vec<&HalfStep>) = half_steps.iter().partition(|it| it.steady);
+    let all: Vec<&HalfStep> = half_steps.iter().collect();
+
+    println!("measured less predicted, in half-steps:");
+    let groups = [&all, &steady, &changing];
+    let mut rows: Vec<Vec<String>> = (-BINS - 1..=BINS)
+        .map(|bin| {
+            let [from, to] = [bin, bin + 1].map(|edge| f64::from(edge) * BIN * 1e3);
+            let name = if bin < -BINS {
+                format!("less than {to:.0} mm")
+            } else if bin == BINS {
+                format!("{from:.0} mm and more")
+            } else {
+                format!("{from:.0} to {to:.0} mm")
+            };
+            // What was in the air has no finite margin and belongs to the outermost bin.
+            let falls_in = |it: &HalfStep| ((it.measured - it.predicted) / BIN).floor() as i32;
+            let count = |group: &[&HalfStep]| {
+                group.iter().filter(|it| falls_in(it).clamp(-BINS - 1, BINS) == bin).count().to_string()
+            };
+            std::iter::once(name).chain(groups.map(|group| count(group))).collect()
+        })
+        .collect();
+    let row = |name: &str, tell: &dyn Fn(&[&HalfStep]) -> String| -> Vec<String> {
+        std::iter::once(name.to_owned()).chain(groups.map(|group| tell(group))).collect()
+    };
+    rows.push(row("half-steps", &|group| group.len().to_string()));
+    rows.push(row("within 10 mm %", &|group| format!("{:.1}", 100.0 * good_share(group))));
+    table::print(&["", "all", "steady", "changing"], &rows);
+    println!("{falls} falls");
+    good_share(&all) >= GOOD_SHARE && falls == 0
+}
+
+fn good_share(half_steps: &[&HalfStep]) -> f64 {
+    let good = half_steps.iter().filter(|it| (it.measured - it.predicted).abs() <= GOOD).count();
+    good as f64 / half_steps.len().max(1) as f64
+}
+
+/// The half-steps of a random stream, and whether it fell.
+fn walk(seed: u64, seconds: f64) -> (Vec<HalfStep>, bool) {
+    let sole = mechanism().sole;
+    let mut watched = Watched::new(Walking::begin(seed));
+    let mut source = Source::new(seed);
+    let mut half_steps = Vec::new();
+    let none = HalfStep { predicted: f64::INFINITY, measured: f64::INFINITY, steady: true };
+    let (mut present, mut index, mut command, mut changed_in) = (none, 0, Command::NOMINAL, None);
+    while watched.fall.is_none() && watched.walking.time() < seconds {
+        let request = source.next(watched.report.half_step.index);
+        watched.tick(request.as_ref());
+        let report = &watched.report;
+        if report.half_step.index != index {
+            if present.predicted.is_finite() {
+                half_steps.push(present);
+            }
+            index = report.half_step.index;
+            let steady = changed_in.is_none_or(|changed| index > changed + 2);
+            present = HalfStep { predicted: f64::INFINITY, measured: f64::INFINITY, steady };
+        }
+        if report.command != command {
+            command = report.command;
+            changed_in = Some(index);
+            present.steady = false;
+        }
+        if report.mode == Mode::Walking && BETWEEN_SWAPS.contains(&report.half_step.progress) {
+            let zmp = report.zmp_planned;
+            present.predicted = present.predicted.min(sole.margin(zmp.x, zmp.y));
+            present.measured = present.measured.min(report.margin);
+        }
+    }
+    (half_steps, watched.fall.is_some())
+}

@@ -1,0 +1,112 @@
+//! Playback: the modified half-step with the paper's constant lean, played to the plant without a controller.
+//!
+//! The lean flips its side at every swap. No body can jump, so it goes over within [`FLIP`]. The ankle feedback that the
+//! controller has may be switched on, so that a fall is not for lack of it.
+
+use std::sync::Arc;
+
+use balance::{CentreOfMass, Feedback, FeedbackParameters, PaperLean, Plan, Sensed};
+use dynamics::{Kinematics, Tree};
+use gait::{Command, GaitParameters, NominalTable, Start, Walk, interpolate};
+use model::{Mechanism, Motion, Side};
+use nalgebra::{Vector2, Vector3};
+use plant::{Measurement, Plant, Setpoint};
+
+use halfstep_tests::walking::PERIOD;
+
+/// How long the lean takes from one side to the other [s].
+const FLIP: f64 = 0.06;
+
+/// A walk that nobody controls.
+pub struct Playback {
+    tree: Tree,
+    walk: Walk,
+    lean: PaperLean,
+    /// Since the last swap [s].
+    since_swap: f64,
+    plan: Plan,
+    feedback: Feedback,
+    kinematics: Kinematics,
+    plant: Plant,
+    measured: Measurement,
+}
+
+impl Playback {
+    /// At the beginning of a half-step of the steady walk at `speed`, leaning.
+    pub fn begin(
+        mechanism: &Mechanism,
+        table: Arc<NominalTable>,
+        gait: &GaitParameters,
+        plant: &plant::Parameters,
+        feedback: FeedbackParameters,
+        speed: f64,
+        lean: PaperLean,
+    ) -> Self {
+        let start = Start { command: Command { speed, ..Command::NOMINAL }, ..Start::default() };
+        let walk = Walk::new(table, mechanism, gait, start).expect("the committed nominal walks at this speed");
+        let tree = Tree::new(mechanism);
+        let mut plant = Plant::new(mechanism, plant, &lean.lean(&walk.motion()), PERIOD, 0);
+        let measured = plant.measure();
+        let mut plan = Plan::new(mechanism, &tree, walk.mirror());
+        plan.update(&tree, walk.mirror(), &lean.lean(&walk.motion()), false);
+        Self {
+            feedback: Feedback::new(mechanism, feedback),
+            kinematics: Kinematics::default(),
+            since_swap: f64::INFINITY,
+            tree,
+            walk,
+            lean,
+            plan,
+            plant,
+            measured,
+        }
+    }
+
+    /// When it falls [s]; `None` if it walks so many seconds.
+    pub fn falls_within(&mut self, seconds: f64) -> Option<f64> {
+        while self.plant.time() < seconds {
+            self.tick();
+            if self.plant.truth().has_fallen() {
+                return Some(self.plant.time());
+            }
+        }
+        None
+    }
+
+    fn tick(&mut self) {
+        // Balance answers what was sensed, told from the foot that bore then.
+        let sensed = self.centre_of_mass();
+        self.feedback.update(&self.plan.centre_of_mass, Some(&sensed), Vector2::zeros(), self.plan.zmp, false, PERIOD);
+        self.since_swap += PERIOD;
+        if self.walk.advance(PERIOD) {
+            self.feedback.swap(self.walk.mirror());
+            self.since_swap = 0.0;
+        }
+
+        let leaning = self.walk.motion() + self.flipped();
+        self.plan.update(&self.tree, self.walk.mirror(), &leaning, false);
+        let asked = leaning + *self.feedback.offsets();
+        let mirror = self.walk.mirror();
+        let (asked, torques) = match self.walk.half_step().support {
+            Side::Right => (asked, self.plan.torques),
+            Side::Left => (asked.mirrored(mirror), mirror.apply(&self.plan.torques)),
+        };
+        self.measured = self.plant.step(&Setpoint { angles: asked.angles, rates: asked.rates, feed_forward: torques });
+    }
+
+    /// What is added of the lean now, in support coordinates: from what it was, on the other foot, to what it is to be.
+    fn flipped(&self) -> Motion {
+        let wanted = Motion::at_rest(self.lean.offsets());
+        let before = wanted.mirrored(self.walk.mirror());
+        interpolate(&before, &wanted, (self.since_swap / FLIP).min(1.0), FLIP)
+    }
+
+    fn centre_of_mass(&mut self) -> CentreOfMass {
+        let Measurement { angles, rates, feet, orientation, angular_rate, .. } = &self.measured;
+        let up = orientation.inverse() * Vector3::z();
+        let (support, mirror) = (self.walk.half_step().support, self.walk.mirror());
+        let sensed = Sensed::from_support(support, mirror, angles, rates, feet, up, *angular_rate);
+        self.kinematics.stand(&self.tree, &sensed.angles);
+        CentreOfMass::sensed(&self.tree, &self.kinematics, &sensed)
+    }
+}

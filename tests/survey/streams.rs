@@ -1,0 +1,93 @@
+//! Random streams: a new request from the whole box every few half-steps.
+
+use gait::Verdict;
+use halfstep_tests::random;
+use halfstep_tests::walking::Walking;
+use rand::{Rng, rngs::StdRng};
+
+use crate::asked;
+use crate::cores::on_all_cores;
+use crate::table::{self, millimetres};
+use crate::watched::Watched;
+
+#[derive(clap::Args)]
+pub struct Options {
+    /// How many streams
+    #[arg(long, default_value_t = 20)]
+    seeds: u64,
+    /// The first one's seed
+    #[arg(long, default_value_t = 0)]
+    first_seed: u64,
+    /// How long each
+    #[arg(long, default_value_t = 600.0)]
+    seconds: f64,
+}
+
+/// What became of a stream.
+struct Stream {
+    verdicts: [u32; 3],
+    watched: Watched,
+}
+
+pub fn survey(options: &Options) -> bool {
+    let streams = on_all_cores(options.seeds as usize, |index| {
+        let mut stream = Stream { verdicts: [0; 3], watched: Watched::new(Walking::begin(seed(options, index))) };
+        let mut source = Source::new(seed(options, index));
+        while stream.watched.fall.is_none() && stream.watched.walking.time() < options.seconds {
+            let request = source.next(stream.watched.report.half_step.index);
+            stream.watched.tick(request.as_ref());
+            if let Some(answer) = stream.watched.report.answer {
+                let verdicts = [Verdict::Accepted, Verdict::Limited, Verdict::Refused];
+                for (count, verdict) in stream.verdicts.iter_mut().zip(verdicts) {
+                    *count += u32::from(answer.admission.verdict == verdict);
+                }
+            }
+        }
+        stream
+    });
+
+    let rows: Vec<Vec<String>> = streams
+        .iter()
+        .enumerate()
+        .map(|(index, Stream { verdicts, watched })| {
+            vec![
+                seed(options, index).to_string(),
+                watched.report.half_step.index.to_string(),
+                verdicts[0].to_string(),
+                verdicts[1].to_string(),
+                verdicts[2].to_string(),
+                millimetres(watched.least_margin),
+                watched.fall.as_ref().map_or_else(|| "walks".into(), ToString::to_string),
+            ]
+        })
+        .collect();
+    table::print(&["seed", "half-steps", "accepted", "limited", "refused", "least margin mm", "outcome"], &rows);
+    let falls = streams.iter().filter(|stream| stream.watched.fall.is_some()).count();
+    println!("{falls} falls of {} streams of {} s", streams.len(), options.seconds);
+    falls == 0
+}
+
+fn seed(options: &Options, index: usize) -> u64 {
+    options.first_seed + index as u64
+}
+
+/// Where the requests come from: a new one every 2 to 6 half-steps.
+pub struct Source {
+    random: StdRng,
+    next: u64,
+}
+
+impl Source {
+    /// The first request comes after two half-steps.
+    pub fn new(seed: u64) -> Self {
+        Self { random: random(seed), next: 2 }
+    }
+
+    /// The request of this tick, in the half-step of this index.
+    pub fn next(&mut self, half_step: u64) -> Option<gait::Request> {
+        (half_step >= self.next).then(|| {
+            self.next = half_step + self.random.random_range(2..=6);
+            asked::any(&mut self.random)
+        })
+    }
+}

@@ -1,0 +1,113 @@
+//! Variations: other floors, masses, loads, slopes and delays than the controller believes.
+
+use halfstep_tests::mechanism;
+use halfstep_tests::walking::{Walking, controller_parameters, plant_parameters};
+use nalgebra::Vector3;
+use plant::{Parameters, Payload, Slope};
+
+use crate::asked;
+use crate::cores::on_all_cores;
+use crate::table::{self, millimetres};
+use crate::watched::Watched;
+
+#[derive(clap::Args)]
+pub struct Options {
+    /// How long each walk
+    #[arg(long, default_value_t = 40.0)]
+    seconds: f64,
+    /// Robots whose masses are wrong, each in its own way
+    #[arg(long, default_value_t = 4)]
+    seeds: u64,
+}
+
+/// Corners and edges of what must be walked, and its middle: `c` and `α` [deg].
+const COMMANDS: [(f64, f64); 9] = [
+    (0.7, -15.0),
+    (0.7, 0.0),
+    (0.7, 15.0),
+    (1.0, -15.0),
+    (1.0, 0.0),
+    (1.0, 15.0),
+    (1.3, -15.0),
+    (1.3, 0.0),
+    (1.3, 15.0),
+];
+/// When the walk leaves the nominal [s].
+const ENTRY: f64 = 2.0;
+
+/// What is other than believed, for people and for the plant.
+struct Variation {
+    name: String,
+    parameters: Parameters,
+    seed: u64,
+}
+
+pub fn survey(options: &Options) -> bool {
+    let (mechanism, controller) = (mechanism(), controller_parameters());
+    let variations = variations(options.seeds);
+    let walks = on_all_cores(variations.len() * COMMANDS.len(), |index| {
+        let Variation { parameters, seed, .. } = &variations[index / COMMANDS.len()];
+        let (speed, turn) = COMMANDS[index % COMMANDS.len()];
+        let mut watched = Watched::new(Walking::begin_with(&mechanism, &controller, parameters, *seed));
+        watched.walk_until(ENTRY);
+        watched.begin_anew();
+        watched.tick(Some(&asked::request(speed, turn, 0.0)));
+        watched.walk_until(options.seconds);
+        watched
+    });
+
+    let rows: Vec<Vec<String>> = std::iter::zip(&variations, walks.chunks(COMMANDS.len()))
+        .map(|(variation, walks)| {
+            let falls = walks.iter().filter(|watched| watched.fall.is_some()).count();
+            let least = walks.iter().map(|watched| watched.least_margin).fold(f64::INFINITY, f64::min);
+            let largest = walks.iter().map(|watched| watched.largest_lean).fold(0.0, f64::max);
+            vec![
+                variation.name.clone(),
+                format!("{falls} of {}", walks.len()),
+                millimetres(least),
+                format!("{:.2}", largest.to_degrees()),
+            ]
+        })
+        .collect();
+    table::print(&["variation", "falls", "least margin mm", "largest feedback °"], &rows);
+    let mut passed = true;
+    for (index, watched) in walks.iter().enumerate() {
+        if let Some(fall) = &watched.fall {
+            passed = false;
+            println!("{}: {fall}", variations[index / COMMANDS.len()].name);
+        }
+    }
+    passed
+}
+
+fn variations(seeds: u64) -> Vec<Variation> {
+    let vary = |name: &str, change: &dyn Fn(&mut Parameters)| {
+        let mut parameters = plant_parameters();
+        change(&mut parameters);
+        Variation { name: name.to_owned(), parameters, seed: 0 }
+    };
+    let payload =
+        |place: Vector3<f64>| move |parameters: &mut Parameters| parameters.payload = Payload { mass: 5.0, at: place };
+    let slope = |ahead: f64, left: f64| {
+        let slope = Slope { ahead: ahead.to_radians(), left: left.to_radians() };
+        move |parameters: &mut Parameters| parameters.slope = slope
+    };
+    let mut variations = vec![
+        vary("nothing", &|_| {}),
+        vary("friction 0.5", &|parameters| parameters.contact.friction = 0.5),
+        vary("payload 5 kg high", &payload(Vector3::new(0.0, 0.0, 0.5))),
+        vary("payload 5 kg behind", &payload(Vector3::new(-0.15, 0.0, 0.28))),
+        vary("payload 5 kg to the left", &payload(Vector3::new(0.0, 0.15, 0.28))),
+        vary("slope 2° up ahead", &slope(2.0, 0.0)),
+        vary("slope 2° down ahead", &slope(-2.0, 0.0)),
+        vary("slope 2° up to the left", &slope(0.0, 2.0)),
+        vary("slope 2° up to the right", &slope(0.0, -2.0)),
+        vary("sensor delay 3 ms", &|parameters| parameters.sensors.delay_periods = 3),
+    ];
+    variations.extend((0..seeds).map(|seed| Variation {
+        name: format!("masses ±5 %, seed {seed}"),
+        parameters: Parameters { mass_error: 0.05, ..plant_parameters() },
+        seed,
+    }));
+    variations
+}

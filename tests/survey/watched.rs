@@ -1,0 +1,97 @@
+//! A walk that is watched: how near it came to falling, or when and how it fell.
+
+use std::fmt;
+
+use controller::{Intent, Mode, TickReport};
+use gait::{Command, Request};
+use halfstep_tests::walking::Walking;
+
+use crate::asked;
+
+/// Between swaps: at a swap the ZMP goes from foot to foot.
+pub const BETWEEN_SWAPS: std::ops::Range<f64> = 0.1..0.9;
+
+/// Controller and plant, and what was seen of them.
+pub struct Watched {
+    /// They walk here.
+    pub walking: Walking,
+    /// The last tick's.
+    pub report: TickReport,
+    /// Least measured margin between swaps while walking [m].
+    pub least_margin: f64,
+    /// Largest feedback angle of the bearing ankle [rad].
+    pub largest_lean: f64,
+    /// How it ended, if it did.
+    pub fall: Option<Fall>,
+}
+
+/// A fall.
+#[derive(Clone, Debug)]
+pub struct Fall {
+    /// Since the beginning [s].
+    pub time: f64,
+    /// In which half-step.
+    pub half_step: u64,
+    /// By which command.
+    pub command: Command,
+    /// What the controller believed.
+    pub mode: Mode,
+}
+
+impl Watched {
+    /// Watches from now on.
+    pub fn new(mut walking: Walking) -> Self {
+        let report = walking.tick(None);
+        Self { walking, report, least_margin: f64::INFINITY, largest_lean: 0.0, fall: None }
+    }
+
+    /// Forgets how near it came to falling until now.
+    pub fn begin_anew(&mut self) {
+        self.least_margin = f64::INFINITY;
+        self.largest_lean = 0.0;
+    }
+
+    /// One period, unless it has fallen.
+    pub fn tick(&mut self, request: Option<&Request>) {
+        if self.fall.is_some() {
+            return;
+        }
+        let report = self.walking.tick(request.map(|request| (request, Some(Intent::Walk))));
+        self.report = report;
+        if self.walking.has_fallen(&report) {
+            self.fall = Some(Fall {
+                time: self.walking.time(),
+                half_step: report.half_step.index,
+                command: report.command,
+                mode: report.mode,
+            });
+        } else if report.mode == Mode::Walking && BETWEEN_SWAPS.contains(&report.half_step.progress) {
+            self.least_margin = self.least_margin.min(report.margin);
+            self.largest_lean = self.largest_lean.max(report.lean.amax());
+        }
+    }
+
+    /// Walks on for so many half-steps, or until it falls.
+    pub fn walk_half_steps(&mut self, half_steps: u64) {
+        let end = self.report.half_step.index + half_steps;
+        // A walk that stands still does not end by itself.
+        let patience = self.walking.time() + 5.0 * half_steps as f64;
+        while self.fall.is_none() && self.report.half_step.index < end && self.walking.time() < patience {
+            self.tick(None);
+        }
+    }
+
+    /// Walks on until a time since the beginning, or until it falls.
+    pub fn walk_until(&mut self, seconds: f64) {
+        while self.fall.is_none() && self.walking.time() < seconds {
+            self.tick(None);
+        }
+    }
+}
+
+impl fmt::Display for Fall {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Fall { time, half_step, command, mode } = self;
+        write!(f, "fell at {time:.2} s in half-step {half_step}, {mode:?} by {}", asked::text(command))
+    }
+}

@@ -1,0 +1,21 @@
+"""A complete plant without physics: every joint is at once where it shall be, and the right foot carries everything.
+
+`halfstep controller --lockstep --for 5s` in one terminal, this in another.
+"""
+
+import sys
+
+from halfstep import Measurement, Plant
+
+MECHANISM = 0x3DD21AC657A5BDD5  # `halfstep check` prints it
+WEIGHT = 73.031 * 9.80665
+
+plant = Plant(MECHANISM, *sys.argv[1:])
+first = Measurement(imu_orientation=(1, 0, 0, 0), wrench_right=(0, 0, WEIGHT, 0, 0, 0))
+for setpoint, measurement in plant.lockstep(first, ticks=5000):
+    measurement.angles[2:] = setpoint.angles[2:]
+    measurement.rates[2:] = setpoint.rates[2:]
+    bears = (measurement.wrench_right, measurement.wrench_left)
+    foot = int(measurement.tick // 600 % 2)
+    bears[foot][2], bears[1 - foot][2] = WEIGHT, 0.0
+print("knee", list(measurement.angles)[4], "after", measurement.tick, "ticks")

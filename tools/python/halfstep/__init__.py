@@ -1,0 +1,50 @@
+"""Talk to a running Halfstep: ask (`Operator`), listen (`Observer`), or be its robot (`Plant`).
+
+    from halfstep import Operator
+    print(Operator("default").ask(turn_deg=15, speed=1.2))
+"""
+
+from .errors import AlreadyRunning, BadName, HalfstepError, Mismatch, NoController, TimedOut
+from .instance import Instance
+from .messages import (
+    PROTOCOL,
+    Fault,
+    Intent,
+    Measurement,
+    Mode,
+    Reason,
+    Reply,
+    Report,
+    Request,
+    Setpoint,
+    Source,
+    Verdict,
+)
+from .operator import Answer, Observer, Operator
+from .plant import Plant
+
+__all__ = [
+    "PROTOCOL",
+    "AlreadyRunning",
+    "Answer",
+    "BadName",
+    "Fault",
+    "HalfstepError",
+    "Instance",
+    "Intent",
+    "Measurement",
+    "Mismatch",
+    "Mode",
+    "NoController",
+    "Observer",
+    "Operator",
+    "Plant",
+    "Reason",
+    "Reply",
+    "Report",
+    "Request",
+    "Setpoint",
+    "Source",
+    "TimedOut",
+    "Verdict",
+]

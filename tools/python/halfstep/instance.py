@@ -1,0 +1,134 @@
+"""An instance: one robot's name and the memory that its processes share. The counterpart of `crates/wire`."""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import os
+import re
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import iceoryx2 as iox2
+
+from .errors import BadName, HalfstepError, Mismatch, NoController
+from .messages import PROTOCOL
+
+# Longer than it takes several others to connect.
+_TURN_PATIENCE_S = 20.0
+# How long a process that is just leaving may stand in the way.
+_PATIENCE_S = 1.0
+_PAUSE_S = 0.005
+
+
+class Instance:
+    """One robot: its name and where its memory lies. Nothing is created yet."""
+
+    def __init__(self, name: str = "default") -> None:
+        """`name` has 1 to 32 of a-z, 0-9, _ and -; otherwise `BadName`."""
+        if not re.fullmatch(r"[a-z0-9_-]{1,32}", name):
+            raise BadName(f"instance name {name!r} is not usable; write 1 to 32 of a-z, 0-9, _ and -, e.g. 'robot-1'")
+        self.name = name
+        self.root = Path(tempfile.gettempdir()) / f"halfstep-{os.getuid()}" / name
+        self.config = iox2.config.default()
+        self.config.global_cfg.prefix = iox2.FileName.new(f"halfstep.{name}.")
+        self.config.global_cfg.root_path = iox2.Path.new(str(self.root))
+
+    @contextlib.contextmanager
+    def turn(self) -> Iterator[None]:
+        """Processes of an instance connect one after the other: waits for the turn, and gives it back."""
+        began = time.monotonic()
+        while True:
+            self.root.mkdir(mode=0o700, parents=True, exist_ok=True)
+            with contextlib.suppress(FileNotFoundError, BlockingIOError), open(self.root / "turn", "w") as lock:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                # Whoever had the turn may have removed the whole folder.
+                if os.stat(lock.name).st_ino == os.fstat(lock.fileno()).st_ino:
+                    yield
+                    return
+            if time.monotonic() - began > _TURN_PATIENCE_S:
+                raise HalfstepError(f"another process does not finish connecting to instance {self.name!r}")
+            time.sleep(_PAUSE_S)
+
+    def join(self, role: str) -> Any:
+        """A node of the instance; only whose turn it is may ask for it."""
+        iox2.set_log_level_from_env_or(iox2.LogLevel.Fatal)
+        return (
+            iox2.NodeBuilder.new()
+            .name(iox2.NodeName.new(role))
+            .config(self.config)
+            .signal_handling_mode(iox2.SignalHandlingMode.Disabled)
+            .create(iox2.ServiceType.Ipc)
+        )
+
+    def service_name(self, service: str) -> Any:
+        """What shared memory calls a service."""
+        return iox2.ServiceName.new(f"halfstep/{self.name}/{service}")
+
+
+class Agreement:
+    """A service of an instance, and what both sides must agree on."""
+
+    def __init__(self, instance: Instance, service: str, pattern: Any, mechanism: int | None = None) -> None:
+        self.instance = instance
+        self.name = instance.service_name(service)
+        self.service = f"halfstep/{instance.name}/{service}"
+        self.pattern = pattern
+        self.terms = {"protocol": str(PROTOCOL)}
+        if mechanism is not None:
+            self.terms["mechanism"] = f"{mechanism:#018x}"
+
+    def specifier(self) -> Any:
+        """The terms, for whoever creates the service."""
+        specifier = iox2.AttributeSpecifier.new()
+        for key, value in self.terms.items():
+            specifier = specifier.define(iox2.AttributeKey.new(key), iox2.AttributeValue.new(value))
+        return specifier
+
+    def open(self, open_service: Callable[[], Any]) -> Any:
+        """Opens the service, which a controller must have made."""
+        service = self._patiently(open_service, None)
+        self._check(service.attributes)
+        return service
+
+    def open_or_create(self, open_service: Callable[[], Any], create: Callable[[], Any]) -> Any:
+        """Opens the service if it is there and creates it if it is not: either side may start first."""
+        service = self._patiently(open_service, create)
+        self._check(service.attributes)
+        return service
+
+    def _patiently(self, open_service: Callable[[], Any], create: Callable[[], Any] | None) -> Any:
+        began = time.monotonic()
+        while True:
+            try:
+                return open_service()
+            except Exception as cause:  # iceoryx2 has one error type per operation, without a common base
+                failed = cause
+            details = self._details()
+            if details is not None:
+                self._check(details.static_details.attributes)
+            elif create is None:
+                raise NoController(f"no controller is running on instance {self.instance.name!r}") from failed
+            else:
+                try:
+                    return create()
+                except Exception as cause:  # as above
+                    failed = cause
+            if time.monotonic() - began > _PATIENCE_S:
+                raise HalfstepError(f"cannot open {self.service}: {failed!r}") from failed
+            time.sleep(_PAUSE_S)
+
+    def _details(self) -> Any:
+        try:
+            return iox2.Service.details(self.name, self.instance.config, self.pattern, iox2.ServiceType.Ipc)
+        except Exception:  # it is going or coming: the next look tells
+            return None
+
+    def _check(self, attributes: Any) -> None:
+        theirs = {a.key.to_string(): a.value.to_string() for a in attributes.values}
+        for key, ours in self.terms.items():
+            if theirs.get(key) != ours:
+                raise Mismatch(f"{self.service}: this package has the {key} {ours}, the other side {theirs.get(key)}")

@@ -1,0 +1,271 @@
+"""The messages as they lie in shared memory.
+
+Written by `halfstep export python`; a test of the repository compares. Do not edit. What the fields mean stands in
+`crates/wire/src/message/`; angles are in radians, joints in the order of the paper.
+"""
+
+from ctypes import Array, c_double, c_uint32, c_uint64
+from enum import IntEnum, IntFlag
+
+from .message import Message
+
+PROTOCOL = 2
+"""The version of all layouts and meanings."""
+
+
+class Intent(IntEnum):
+    WALK = 1  # walk
+    STOP = 2  # stop
+    HOLD = 3  # hold
+    RESET = 4  # reset
+
+
+class Source(IntEnum):
+    CONSOLE = 0  # console
+    SCRIPT = 1  # script
+    TELEOP = 2  # teleop
+    PROGRAM = 3  # program
+
+
+class Lasting(IntEnum):
+    UNTIL_CHANGED = 0  # until changed
+    WHILE_SPEAKING = 1  # while its source speaks
+    FAREWELL = 2  # after its source has left
+
+
+class Verdict(IntEnum):
+    ACCEPTED = 1  # accepted
+    LIMITED = 2  # limited
+    REFUSED = 3  # refused
+
+
+class Reason(IntEnum):
+    NONE = 0  # no objection
+    TURN_LIMIT = 1  # the turn is larger than this walk can do
+    SPEED_LIMIT = 2  # the speed is outside what this walk can do
+    EXTENSION_LIMIT = 3  # the step extension is larger than this walk can do
+    NOT_FINITE = 4  # a number is not finite
+    NO_WAY_BACK = 5  # this walk cannot go on any more: start a new one
+    QUEUE_FULL = 6  # too many requests are waiting for their tick
+    NOT_UNDERSTOOD = 7  # a code in the request means nothing to this controller
+    EMPTY = 8  # the request asks for nothing
+    SHUTTING_DOWN = 9  # the controller is shutting down
+    OUTRANKED = 10  # a source that goes before this one is in command
+    MARGIN = 11  # the zero-moment point would come too near to the edge of the sole
+    JOINT_RANGE = 12  # a joint would leave its range
+    JOINT_RATE = 13  # a joint would move too fast
+    TORQUE = 14  # a motor would need more torque than it has
+    VOLTAGE = 15  # a motor would need more voltage than there is
+    SOLE_CLEARANCE = 16  # the swinging sole would come too near to the ground
+    LEG_REACH = 17  # a leg would have to reach too far
+    SUPERSEDED = 18  # a newer request took its place
+    FALLEN = 19  # the robot has fallen: put it on its feet and ask for a reset
+    FAULTED = 20  # a fault is latched: ask for a reset
+    NOT_WELL = 21  # what went wrong still is: the robot must be on its feet and be heard from
+
+
+class Mode(IntEnum):
+    WALKING = 0  # walking
+    HOLDING = 1  # holding
+    FALLEN = 2  # fallen
+    STARTING = 3  # starting
+    STANDING = 4  # standing
+    STOPPING = 5  # stopping
+    FAULTED = 6  # faulted
+
+
+class Fault(IntFlag):
+    MEASUREMENT_NOT_FINITE = 1  # a measurement holds a number that is not finite
+    MEASUREMENT_ABSURD = 2  # a measurement holds a number that no working sensor gives
+    MEASUREMENT_STALE = 4  # no new measurement has come for too long
+    MEASUREMENT_OUT_OF_ORDER = 8  # a measurement is older than one before it
+    ANGLE_LIMITED = 16  # a joint angle had to be held within its range
+    RATE_LIMITED = 32  # a joint rate had to be held within its limit
+    SETPOINT_NOT_FINITE = 64  # the setpoint was not finite; the last good one was sent
+    IN_THE_AIR = 128  # the feet carry too little for a zero-moment point
+    FALLEN = 256  # the robot has fallen
+    OUT_OF_REACH = 1024  # the plan went where a leg cannot reach
+    DEADLINE_MISSED = 512  # a deadline was missed
+
+
+class Setpoint(Message):
+    """`halfstep.Setpoint.v1`, 496 bytes."""
+
+    tick: int
+    time_ns: int
+    angles: Array[c_double]
+    rates: Array[c_double]
+    feed_forward: Array[c_double]
+
+    _fields_ = [
+        ("tick", c_uint64),
+        ("time_ns", c_uint64),
+        ("angles", c_double * 20),
+        ("rates", c_double * 20),
+        ("feed_forward", c_double * 20),
+    ]
+
+    @staticmethod
+    def type_name() -> str:
+        """What shared memory calls it."""
+        return "halfstep.Setpoint.v1"
+
+
+class Measurement(Message):
+    """`halfstep.Measurement.v2`, 656 bytes."""
+
+    tick: int
+    time_ns: int
+    sample: int
+    angles: Array[c_double]
+    rates: Array[c_double]
+    wrench_right: Array[c_double]
+    wrench_left: Array[c_double]
+    imu_orientation: Array[c_double]
+    imu_rate: Array[c_double]
+    motor_current: Array[c_double]
+
+    _fields_ = [
+        ("tick", c_uint64),
+        ("time_ns", c_uint64),
+        ("sample", c_uint64),
+        ("angles", c_double * 20),
+        ("rates", c_double * 20),
+        ("wrench_right", c_double * 6),
+        ("wrench_left", c_double * 6),
+        ("imu_orientation", c_double * 4),
+        ("imu_rate", c_double * 3),
+        ("motor_current", c_double * 20),
+    ]
+
+    @staticmethod
+    def type_name() -> str:
+        """What shared memory calls it."""
+        return "halfstep.Measurement.v2"
+
+
+class Request(Message):
+    """`halfstep.Request.v2`, 56 bytes."""
+
+    not_before: int
+    present: int
+    intent: int
+    source: int
+    lasting: int
+    turn: float
+    speed: float
+    extension: float
+    age_limit: float
+
+    _fields_ = [
+        ("not_before", c_uint64),
+        ("present", c_uint32),
+        ("intent", c_uint32),
+        ("source", c_uint32),
+        ("lasting", c_uint32),
+        ("turn", c_double),
+        ("speed", c_double),
+        ("extension", c_double),
+        ("age_limit", c_double),
+    ]
+
+    @staticmethod
+    def type_name() -> str:
+        """What shared memory calls it."""
+        return "halfstep.Request.v2"
+
+
+class Reply(Message):
+    """`halfstep.Reply.v2`, 88 bytes."""
+
+    verdict: int
+    reason: int
+    effect_half_step: int
+    turn: float
+    speed: float
+    extension: float
+    intent: int
+    known: int
+    joint: int
+    source: int
+    value: float
+    limit: float
+    remaining: float
+    predicted_margin: float
+
+    _fields_ = [
+        ("verdict", c_uint32),
+        ("reason", c_uint32),
+        ("effect_half_step", c_uint64),
+        ("turn", c_double),
+        ("speed", c_double),
+        ("extension", c_double),
+        ("intent", c_uint32),
+        ("known", c_uint32),
+        ("joint", c_uint32),
+        ("source", c_uint32),
+        ("value", c_double),
+        ("limit", c_double),
+        ("remaining", c_double),
+        ("predicted_margin", c_double),
+    ]
+
+    @staticmethod
+    def type_name() -> str:
+        """What shared memory calls it."""
+        return "halfstep.Reply.v2"
+
+
+class Report(Message):
+    """`halfstep.Report.v2`, 264 bytes."""
+
+    tick: int
+    time_ns: int
+    mode: int
+    support: int
+    half_step: int
+    progress: float
+    speed: float
+    turn: float
+    extension: float
+    zmp_in_support: Array[c_double]
+    zmp_planned: Array[c_double]
+    margin: float
+    lean: Array[c_double]
+    added: Array[c_double]
+    com_in_support: Array[c_double]
+    com_velocity_in_support: Array[c_double]
+    com_planned: Array[c_double]
+    com_velocity_planned: Array[c_double]
+    faults: int
+    missed: int
+    compute_ns: int
+
+    _fields_ = [
+        ("tick", c_uint64),
+        ("time_ns", c_uint64),
+        ("mode", c_uint32),
+        ("support", c_uint32),
+        ("half_step", c_uint64),
+        ("progress", c_double),
+        ("speed", c_double),
+        ("turn", c_double),
+        ("extension", c_double),
+        ("zmp_in_support", c_double * 2),
+        ("zmp_planned", c_double * 2),
+        ("margin", c_double),
+        ("lean", c_double * 2),
+        ("added", c_double * 4),
+        ("com_in_support", c_double * 3),
+        ("com_velocity_in_support", c_double * 3),
+        ("com_planned", c_double * 3),
+        ("com_velocity_planned", c_double * 3),
+        ("faults", c_uint32),
+        ("missed", c_uint32),
+        ("compute_ns", c_uint64),
+    ]
+
+    @staticmethod
+    def type_name() -> str:
+        """What shared memory calls it."""
+        return "halfstep.Report.v2"

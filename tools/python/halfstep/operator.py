@@ -1,0 +1,162 @@
+"""Operators ask, observers listen."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import iceoryx2 as iox2
+
+from .errors import HalfstepError, NoController, TimedOut
+from .instance import Agreement, Instance
+from .messages import Intent, Reason, Reply, Report, Request, Source, Verdict
+
+_TURN, _SPEED, _EXTENSION, _INTENT = 1, 2, 4, 8
+_MARGIN = 4
+_GLANCE_S = 0.001
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What became of a request, and why."""
+
+    verdict: Verdict
+    reason: Reason
+    effect_half_step: int
+    """The half-step in which it takes effect."""
+    turn: float
+    """Granted [rad]."""
+    speed: float
+    """Granted."""
+    extension: float
+    """Granted [rad]."""
+    predicted_margin: float | None
+    """Least distance of the zero-moment point to the sole's edge foreseen for what was granted [m]."""
+
+    @property
+    def accepted(self) -> bool:
+        """Whether it takes effect as asked."""
+        return self.verdict == Verdict.ACCEPTED
+
+
+class Operator:
+    """Asks the controller of an instance."""
+
+    def __init__(self, instance: Instance | str = "default") -> None:
+        """Connects; without a controller `NoController`, with another version `Mismatch`."""
+        self.instance = instance if isinstance(instance, Instance) else Instance(instance)
+        agreement = Agreement(self.instance, "request", iox2.MessagingPattern.RequestResponse)
+        with self.instance.turn():
+            self._node = self.instance.join("operator")
+            self._service = agreement.open(
+                lambda: self._node.service_builder(agreement.name)
+                .request_response(Request, Reply)
+                .enable_safe_overflow_for_requests(False)
+                .enable_safe_overflow_for_responses(False)
+                .enable_fire_and_forget_requests(False)
+                .open()
+            )
+            self._client = (
+                self._service.client_builder().backpressure_strategy(iox2.BackpressureStrategy.DiscardData).create()
+            )
+        if not self.controller_is_there():
+            raise NoController(f"no controller is running on instance {self.instance.name!r}")
+
+    def controller_is_there(self) -> bool:
+        """Whether a controller is alive."""
+        self._service.try_cleanup_dead_nodes()
+        return bool(self._service.dynamic_config.number_of_servers > 0)
+
+    def ask(
+        self,
+        *,
+        turn_deg: float | None = None,
+        speed: float | None = None,
+        extension_deg: float | None = None,
+        intent: Intent | None = None,
+        not_before: int = 0,
+        timeout_s: float = 5.0,
+    ) -> Answer:
+        """Asks for a set that takes effect whole, and waits for the answer.
+
+        `not_before` is the controller's tick before which it must not take effect: 0 is at once.
+        """
+        request = Request(not_before=not_before, source=Source.PROGRAM)
+        for bit, field, value in (
+            (_TURN, "turn", turn_deg if turn_deg is None else math.radians(turn_deg)),
+            (_SPEED, "speed", speed),
+            (_EXTENSION, "extension", extension_deg if extension_deg is None else math.radians(extension_deg)),
+            (_INTENT, "intent", intent),
+        ):
+            if value is not None:
+                request.present |= bit
+                setattr(request, field, value)
+        return self._wait(self._client.send_copy(request), timeout_s)
+
+    def _wait(self, pending: Any, timeout_s: float) -> Answer:
+        began = time.monotonic()
+        while True:
+            connected = pending.is_connected
+            response = pending.receive()
+            if response is not None:
+                reply = Reply.copy_of(response.payload().contents)
+                response.delete()
+                return Answer(
+                    Verdict(reply.verdict),
+                    Reason(reply.reason),
+                    reply.effect_half_step,
+                    reply.turn,
+                    reply.speed,
+                    reply.extension,
+                    reply.predicted_margin if reply.known & _MARGIN else None,
+                )
+            if not connected:
+                raise HalfstepError("the controller dropped the request, or left")
+            if time.monotonic() - began > timeout_s:
+                raise TimedOut(f"no answer within {timeout_s} s")
+            time.sleep(_GLANCE_S)
+
+
+class Observer:
+    """Hears what the controller of an instance reports, once per period."""
+
+    def __init__(self, instance: Instance | str = "default") -> None:
+        """Connects; without a controller `NoController`, with another version `Mismatch`."""
+        self.instance = instance if isinstance(instance, Instance) else Instance(instance)
+        agreement = Agreement(self.instance, "report", iox2.MessagingPattern.PublishSubscribe)
+        with self.instance.turn():
+            self._node = self.instance.join("observer")
+            service = agreement.open(
+                lambda: self._node.service_builder(agreement.name).publish_subscribe(Report).open()
+            )
+            self._subscriber = service.subscriber_builder().create()
+
+    def next_report(self) -> Report | None:
+        """The oldest report that has not been read; `None` when there is no new one."""
+        sample = self._subscriber.receive()
+        if sample is None:
+            return None
+        report = Report.copy_of(sample.payload().contents)
+        sample.delete()
+        return report
+
+    def newest(self) -> Report | None:
+        """The last of the reports that have not been read; `None` when there is no new one."""
+        newest = None
+        while (report := self.next_report()) is not None:
+            newest = report
+        return newest
+
+    def reports(self, silence_max_s: float = 1.0) -> Iterator[Report]:
+        """Reports as they come, until none has come for so long."""
+        heard = time.monotonic()
+        while time.monotonic() - heard < silence_max_s:
+            report = self.next_report()
+            if report is None:
+                time.sleep(_GLANCE_S)
+            else:
+                heard = time.monotonic()
+                yield report
