@@ -18,6 +18,10 @@ const SHIFT_ON_BOTH_FEET: f64 = 0.03;
 /// [m].
 const LEFT_TO_NEXT_ANKLE: Vector2<f64> = Vector2::new(0.05, 0.03);
 
+/// A step is no answer to a sensor's glitch: errors count over this time [s], and up to a length [m].
+const ERROR_TIME_CONSTANT: f64 = 0.015;
+const ERROR_MAX: f64 = 0.3;
+
 /// Rotation of the body over the bearing ankle, about x and y [rad].
 pub type AnkleLean = Vector2<f64>;
 
@@ -35,10 +39,8 @@ pub struct Feedback {
     axes: [Vector3<f64>; 2],
     /// Of the swinging ankle's.
     swinging_axes: [Vector3<f64>; 2],
-    /// Of the divergent component, when last known [m].
+    /// Of the divergent component, over some time [m].
     error: Vector2<f64>,
-    /// How far the ZMP can be moved after it [m].
-    room: Vector2<f64>,
     /// Angles and rates of the offsets, in support coordinates.
     offsets: Motion,
     /// What the bearing ankle is asked for now.
@@ -56,7 +58,6 @@ impl Feedback {
             axes: ANKLES[0].map(|joint| mechanism.links[joint].axis.into_inner()),
             swinging_axes: ANKLES[1].map(|joint| mechanism.links[joint].axis.into_inner()),
             error: Vector2::zeros(),
-            room: Vector2::zeros(),
             offsets: Motion::default(),
             lean: Vector2::zeros(),
             parameters,
@@ -79,20 +80,20 @@ impl Feedback {
         dt: f64,
     ) {
         let mut level = Vector3::zeros();
-        self.error = Vector2::zeros();
+        let mut stepped_after = Vector2::zeros();
         if let Some(sensed) = sensed {
             let error = sensed.divergent_component() - planned.divergent_component();
             let shift = if on_both_feet {
                 (error * self.parameters.gain).map(|shift| shift.clamp(-SHIFT_ON_BOTH_FEET, SHIFT_ON_BOTH_FEET))
             } else {
                 level = -Vector3::new(tilt.x, tilt.y, 0.0);
-                self.error = error;
-                self.room = self.room_towards(error);
+                stepped_after = error.cap_magnitude(ERROR_MAX);
                 self.zmp_shift(error, zmp_planned)
             };
             // To push the ground further ahead (+x) the body leans back (−y); further left (+y) it leans right (+x).
             self.lean = Vector2::new(shift.y, -shift.x) * self.lean_per_shift;
         }
+        self.error += (stepped_after - self.error) * (dt / (dt + ERROR_TIME_CONSTANT));
         let lean = Vector3::new(self.lean.x, self.lean.y, 0.0);
         for (joint, axis) in ANKLES[0].into_iter().zip(self.axes) {
             self.follow(joint, axis.dot(&lean), self.parameters.lag, dt);
@@ -107,7 +108,7 @@ impl Feedback {
     pub fn swap(&mut self, mirror: &Mirror) {
         self.offsets = self.offsets.mirrored(mirror);
         self.lean = Vector2::zeros();
-        self.error = Vector2::zeros();
+        self.error.y = -self.error.y;
     }
 
     /// Lets everything fade: nothing bears, or nothing is known.
@@ -140,8 +141,9 @@ impl Feedback {
     ///
     /// * `growth` – `e^(ωt)` over the time until then
     pub fn excess(&self, growth: f64) -> Vector2<f64> {
+        let room = self.room_towards(self.error);
         Vector2::from_fn(|axis, _| {
-            let (error, room) = (self.error[axis], self.room[axis]);
+            let (error, room) = (self.error[axis], room[axis]);
             let left = room + (error.abs() - room) * growth - LEFT_TO_NEXT_ANKLE[axis];
             left.max(0.0) * error.signum()
         })
@@ -181,7 +183,9 @@ mod tests {
     #[test]
     fn the_excess_is_what_a_pendulum_does() {
         let mut feedback = feedback();
-        feedback.update(&at(0.0, 0.0), Some(&at(-0.09, 0.05)), Vector2::zeros(), Vector2::zeros(), false, 1e-3);
+        for _ in 0..1000 {
+            feedback.update(&at(0.0, 0.0), Some(&at(-0.09, 0.05)), Vector2::zeros(), Vector2::zeros(), false, 1e-3);
+        }
         let omega = at(0.0, 0.0).pendulum_rate();
         // The heel is 7 cm behind, the edge 4 cm aside.
         let zmp_shift = Vector2::new(-0.065, 0.035);
@@ -197,7 +201,9 @@ mod tests {
     #[test]
     fn what_the_ankle_can_do_needs_no_step() {
         let mut feedback = feedback();
-        feedback.update(&at(0.0, 0.0), Some(&at(0.15, -0.03)), Vector2::zeros(), Vector2::zeros(), false, 1e-3);
+        for _ in 0..1000 {
+            feedback.update(&at(0.0, 0.0), Some(&at(0.15, -0.03)), Vector2::zeros(), Vector2::zeros(), false, 1e-3);
+        }
         assert_eq!(feedback.excess(3.0), Vector2::zeros());
     }
 

@@ -16,6 +16,8 @@ const WEIGHTS_MAX: f64 = 50.0;
 
 /// How far an orientation may be off where the gyro takes the last one [rad]: 10°, much more than any noise.
 const JUMP_MAX: f64 = 0.175;
+/// How far an angular rate may be off the last one [rad/s]: no push turns a trunk so suddenly.
+const RATE_JUMP_MAX: f64 = 5.0;
 /// How long two samples of the gyro say what was between them [s].
 const GYRO_TRUSTED: f64 = 0.2;
 /// How long the trunk must tilt beyond recovery before the robot counts as fallen [s]: no fall ends sooner.
@@ -107,12 +109,12 @@ impl Watch {
         self.silence > self.parameters.silence_max
     }
 
-    /// Whether the vertical is not where the last one turns to at the angular rates of both samples (`u̇ = u × ω` in axes of
-    /// the trunk). After a long silence nothing is known to contradict.
+    /// Whether the angular rate jumps, or the vertical is not where the last one turns to at the rates of both samples
+    /// (`u̇ = u × ω` in axes of the trunk). After a long silence nothing is known to contradict.
     fn contradicts_gyro(&self, up: &Vector3<f64>, rate: &Vector3<f64>) -> bool {
         self.trunk.filter(|_| self.silence < GYRO_TRUSTED).is_some_and(|[last_up, last_rate]| {
             let expected = last_up + last_up.cross(&((last_rate + rate) * (self.silence / 2.0)));
-            up.dot(&expected.normalize()) < JUMP_MAX.cos()
+            up.dot(&expected.normalize()) < JUMP_MAX.cos() || (rate - last_rate).amax() > RATE_JUMP_MAX
         })
     }
 
@@ -177,6 +179,15 @@ mod tests {
             assert_eq!(faults.contains(Fault::MeasurementAbsurd), jumps, "tick {tick}");
             assert!(!watch.has_fallen());
         }
+    }
+
+    #[test]
+    fn a_jump_of_the_gyro_is_absurd() {
+        let (mut watch, mut faults) = (watch(), Faults::default());
+        assert!(watch.update(Some(&turned(0, 0.1, 0.0)), 1e-3, &mut faults).is_some());
+        assert!(watch.update(Some(&turned(1, 0.1, 17.0)), 1e-3, &mut faults).is_none());
+        assert!(faults.contains(Fault::MeasurementAbsurd));
+        assert!(watch.update(Some(&turned(2, 0.1, 0.1)), 1e-3, &mut faults).is_some());
     }
 
     /// A gap of 15 ms in a turn of 5 rad/s: 4.3° that the gyro explains.

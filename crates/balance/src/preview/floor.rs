@@ -16,7 +16,7 @@ pub struct Floor {
 }
 
 /// Of the lag [s].
-const TIME_CONSTANT: f64 = 0.5;
+const TIME_CONSTANT: f64 = 0.25;
 /// Of what soles tell now [s].
 const SOLE_TIME_CONSTANT: f64 = 0.05;
 /// The steepest floor that is believed: 6°. A robot that tilts more does not stand on its soles.
