@@ -4,6 +4,7 @@ use model::{Joint, JointVector, Mechanism, PerJoint, Side};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use crate::Tree;
+use crate::sin_cos::SinCos;
 
 /// Poses of all links, in world axes.
 #[derive(Clone, Debug)]
@@ -65,19 +66,22 @@ impl Kinematics {
     /// Places the links of `joints`, whose parents are placed already or among them.
     #[inline(always)]
     pub(crate) fn chain(&mut self, tree: &Tree, angles: &JointVector, joints: impl Iterator<Item = Joint>) {
+        let turned = SinCos::of(angles);
+        // Most joints follow the one before: its link is at hand.
+        let mut at_hand = (None, Matrix3::identity(), Vector3::zeros());
         for joint in joints {
             let node = &tree.nodes[joint];
             let (parent_rotation, parent_origin) = match node.parent {
-                Some(parent) => (self.rotation[parent], self.origin[parent]),
-                None => (Matrix3::identity(), Vector3::zeros()),
+                Some(parent) if at_hand.0 != Some(parent) => (self.rotation[parent], self.origin[parent]),
+                _ => (at_hand.1, at_hand.2),
             };
-            let (rotation, axis) = node.turn.apply(&parent_rotation, angles[joint]);
-            self.rotation[joint] = rotation;
-            self.axis[joint] = axis;
-            self.origin[joint] = match node.origin {
+            let (rotation, axis) = node.turn.apply(&parent_rotation, turned.at(joint));
+            let origin = match node.origin {
                 Some(origin) => parent_origin + parent_rotation * origin,
                 None => parent_origin,
             };
+            (self.rotation[joint], self.axis[joint], self.origin[joint]) = (rotation, axis, origin);
+            at_hand = (Some(joint), rotation, origin);
         }
     }
 

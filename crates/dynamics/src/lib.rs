@@ -19,6 +19,7 @@ mod sin_cos;
 mod support_polygon;
 mod time_scaling;
 mod tree;
+mod upper_body;
 mod zmp;
 
 pub use articulated_body::{Accelerations, ArticulatedBody, LinkLoad};
@@ -33,4 +34,5 @@ pub use sin_cos::sin_cos;
 pub use support_polygon::SupportPolygon;
 pub use time_scaling::{wrench_at_speed, zmp_at_speed};
 pub use tree::Tree;
+pub use upper_body::UpperBody;
 pub use zmp::zmp;

@@ -77,6 +77,16 @@ impl NewtonEuler {
         self.ground = self.inward(tree, Joint::ALL.into_iter());
     }
 
+    /// The wrench of the ground alone, about O, that a motion needs with the right sole held at O: fills neither `torques`
+    /// nor `ground`.
+    #[inline]
+    pub fn ground_wrench(&mut self, tree: &Tree, motion: &Motion) -> Wrench {
+        self.kinematics.stand(tree, &motion.angles);
+        let ground = LinkMotion { acceleration: Vector3::new(0.0, 0.0, GRAVITY), ..LinkMotion::default() };
+        self.outward(tree, motion, ground, Joint::ALL.into_iter());
+        self.needs.0.iter().fold(Wrench::ZERO, |sum, needs| sum + *needs)
+    }
+
     /// What a motion of the floating robot needs: `ground` is the wrench about the right sole's origin that moves it so.
     pub fn float(&mut self, tree: &Tree, base: &BaseMotion, motion: &Motion) {
         let foot = Mechanism::foot(Side::Right);

@@ -3,6 +3,8 @@
 //! The system's libm differs from version to version in the last bit and is called once per value. Here: Cody–Waite
 //! reduction to ±π/4 and the minimax polynomials of FreeBSD's msun (`k_sin.c`, `k_cos.c`); within 2.5·10⁻¹⁶ for |x| ≤ 10⁵, far beyond any joint.
 
+use model::{Joint, JointVector};
+
 const TWO_OVER_PI: f64 = std::f64::consts::FRAC_2_PI;
 /// π/2 in two parts; the first has 33 bits, so that its product with a whole number is exact.
 const HALF_PI_HIGH: f64 = 1.570_796_326_734_125_6;
@@ -44,6 +46,28 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
     let sine_sign = (quadrant & 2) << 62;
     let cosine_sign = ((quadrant.wrapping_add(1)) & 2) << 62;
     (f64::from_bits(((s & !swap) | (c & swap)) ^ sine_sign), f64::from_bits(((c & !swap) | (s & swap)) ^ cosine_sign))
+}
+
+/// Sines and cosines of all joints, taken in one loop of vector code.
+pub(crate) struct SinCos {
+    sines: JointVector,
+    cosines: JointVector,
+}
+
+impl SinCos {
+    #[inline(always)]
+    pub fn of(angles: &JointVector) -> Self {
+        let mut all = Self { sines: JointVector::ZERO, cosines: JointVector::ZERO };
+        for index in 0..Joint::COUNT {
+            (all.sines.0[index], all.cosines.0[index]) = sin_cos(angles.0[index]);
+        }
+        all
+    }
+
+    #[inline(always)]
+    pub fn at(&self, joint: Joint) -> (f64, f64) {
+        (self.sines[joint], self.cosines[joint])
+    }
 }
 
 #[cfg(test)]

@@ -1,9 +1,7 @@
 //! The mechanism as the algorithms want it: parents as positions, axes sorted by direction, massless links known.
 
 use model::{Joint, Mechanism, PerJoint};
-use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
-
-use crate::sin_cos;
+use nalgebra::{Matrix3, Unit, Vector3};
 
 /// A mechanism prepared for computing. Read-only.
 #[derive(Clone, Debug)]
@@ -68,25 +66,18 @@ impl Turn {
         }
     }
 
-    /// The child's rotation and the joint's axis in the world, from the parent's rotation.
+    /// The child's rotation and the joint's axis in the world, from the parent's rotation and sine and cosine of the angle.
     #[inline(always)]
-    pub fn apply(self, parent: &Matrix3<f64>, angle: f64) -> (Matrix3<f64>, Vector3<f64>) {
+    pub fn apply(self, parent: &Matrix3<f64>, (sine, cosine): (f64, f64)) -> (Matrix3<f64>, Vector3<f64>) {
         let (x, y, z) = (parent.column(0), parent.column(1), parent.column(2));
         match self {
-            Turn::X => {
-                let (sine, cosine) = sin_cos(angle);
-                (Matrix3::from_columns(&[x.into(), y * cosine + z * sine, z * cosine - y * sine]), x.into())
-            }
-            Turn::Y => {
-                let (sine, cosine) = sin_cos(angle);
-                (Matrix3::from_columns(&[x * cosine - z * sine, y.into(), x * sine + z * cosine]), y.into())
-            }
-            Turn::Z => {
-                let (sine, cosine) = sin_cos(angle);
-                (Matrix3::from_columns(&[x * cosine + y * sine, y * cosine - x * sine, z.into()]), z.into())
-            }
+            Turn::X => (Matrix3::from_columns(&[x.into(), y * cosine + z * sine, z * cosine - y * sine]), x.into()),
+            Turn::Y => (Matrix3::from_columns(&[x * cosine - z * sine, y.into(), x * sine + z * cosine]), y.into()),
+            Turn::Z => (Matrix3::from_columns(&[x * cosine + y * sine, y * cosine - x * sine, z.into()]), z.into()),
             Turn::About(axis) => {
-                (parent * Rotation3::from_axis_angle(&axis, angle).into_inner(), parent * axis.into_inner())
+                let across = axis.cross_matrix() * sine + axis.into_inner() * axis.transpose() * (1.0 - cosine);
+                let turn = Matrix3::from_diagonal_element(cosine) + across;
+                (parent * turn, parent * axis.into_inner())
             }
         }
     }

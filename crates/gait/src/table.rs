@@ -2,7 +2,7 @@
 
 use model::{Joint, JointVector, Mirror, Motion, Wrench};
 
-use crate::hermite::interpolate;
+use crate::hermite::{interpolate, interpolate_angles};
 
 /// One single-support half-step on the right foot, at `n_int + 1` equally spaced instants from 0 to T.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,6 +102,12 @@ impl NominalTable {
     pub fn at(&self, progress: f64) -> Motion {
         let (start, end, x) = self.around(progress);
         interpolate(&start.motion, &end.motion, x, self.duration / self.intervals() as f64)
+    }
+
+    /// The angles of [`at`](Self::at) alone.
+    pub fn angles_at(&self, progress: f64) -> JointVector {
+        let (start, end, x) = self.around(progress);
+        interpolate_angles(&start.motion, &end.motion, x, self.duration / self.intervals() as f64)
     }
 
     /// The wrench of the ground about O, in support axes, at `progress` and a constant `speed` `c`: the gravity part

@@ -210,12 +210,15 @@ impl Walk {
         at_speed(&at_nominal_speed, speed.value, speed.rate)
     }
 
-    /// The angles that the walk asks now, in canonical coordinates.
-    pub fn angles(&self) -> JointVector {
-        let (progress, duration) = (self.half_step.progress, self.table.duration);
-        self.table.at(progress).angles
-            + self.turn.at(progress, duration).angles
-            + self.extension.at(progress, duration).angles
+    /// The angles of [`motion_at`](Self::motion_at).
+    pub fn angles_at(&self, progress: f64) -> JointVector {
+        self.table.angles_at(progress) + self.offsets_at(progress)
+    }
+
+    /// What turn and extension add to the nominal angles at a progress.
+    pub fn offsets_at(&self, progress: f64) -> JointVector {
+        let duration = self.table.duration;
+        self.turn.at(progress, duration).angles + self.extension.at(progress, duration).angles
     }
 
     /// What the walk asks now, in physical joints: 3 to 8 are the right leg's whichever foot bears.

@@ -45,8 +45,14 @@ impl JointVector {
     }
 
     /// Joint by joint, `f` of both values.
+    #[inline]
     pub fn zip_with(&self, other: &Self, mut f: impl FnMut(f64, f64) -> f64) -> Self {
-        PerJoint(std::array::from_fn(|index| f(self.0[index], other.0[index])))
+        // A plain loop becomes vector code, an array's from_fn does not.
+        let mut result = Self::ZERO;
+        for ((result, a), b) in result.0.iter_mut().zip(&self.0).zip(&other.0) {
+            *result = f(*a, *b);
+        }
+        result
     }
 }
 
@@ -75,6 +81,7 @@ impl<T> IndexMut<Joint> for PerJoint<T> {
 impl Add for JointVector {
     type Output = Self;
 
+    #[inline]
     fn add(self, other: Self) -> Self {
         self.zip_with(&other, |a, b| a + b)
     }
@@ -89,6 +96,7 @@ impl AddAssign for JointVector {
 impl Sub for JointVector {
     type Output = Self;
 
+    #[inline]
     fn sub(self, other: Self) -> Self {
         self.zip_with(&other, |a, b| a - b)
     }
@@ -103,8 +111,12 @@ impl SubAssign for JointVector {
 impl Mul<f64> for JointVector {
     type Output = Self;
 
-    fn mul(self, factor: f64) -> Self {
-        PerJoint(self.0.map(|value| value * factor))
+    #[inline]
+    fn mul(mut self, factor: f64) -> Self {
+        for value in &mut self.0 {
+            *value *= factor;
+        }
+        self
     }
 }
 

@@ -1,8 +1,9 @@
 //! What does not change while the robot walks: its body, its nominal, the gains that follow from both.
 
-use dynamics::{LegSolver, Tree};
+use dynamics::{Kinematics, Leg, LegSolver, Tree};
 use gait::NominalTable;
-use model::{Mechanism, Mirror};
+use model::{Link, Mechanism, Mirror, Side};
+use nalgebra::Point3;
 
 use crate::preview::{CartTable, KNOT, NominalSway};
 
@@ -26,6 +27,8 @@ pub struct Biped {
     pub mirror: Mirror,
     /// What its pendulum leaves out of the nominal half-step.
     pub sway: NominalSway,
+    /// By how much the centre of mass shifts with the pelvis while both feet stay [-].
+    pub com_per_pelvis: f64,
     /// Plans the pendulum over the feet.
     pub pendulum: CartTable,
     /// Plans the pendulum's correction for the whole body.
@@ -44,8 +47,20 @@ impl Biped {
             mechanism: mechanism.clone(),
             mirror: *mirror,
             legs: LegSolver::new(mechanism),
+            com_per_pelvis: com_per_pelvis(mechanism, &tree, table),
             tree,
             sway,
         }
     }
+}
+
+/// Legs shear between pelvis and ground: a link shifts as high as it is, from the pelvis on all shift alike.
+fn com_per_pelvis(mechanism: &Mechanism, tree: &Tree, table: &NominalTable) -> f64 {
+    let kinematics = Kinematics::standing(tree, &table.at(0.0).angles);
+    let pelvis = kinematics.origin[Leg(Side::Right).end()].z;
+    let shifted = mechanism.links.iter().map(|(link, Link { body, .. })| {
+        let com = kinematics.link_to_world(link) * Point3::from(body.com);
+        body.mass * (com.z / pelvis).min(1.0)
+    });
+    shifted.sum::<f64>() / tree.mass
 }

@@ -122,7 +122,7 @@ impl Course {
 
     /// The swinging sole of the modified half-step at a progress.
     pub fn swinging_sole(&self, biped: &Biped, progress: f64) -> SolePose {
-        let angles = self.walk.motion_at(progress).angles;
+        let angles = self.walk.angles_at(progress);
         let kinematics = Kinematics::standing_up_to(&biped.tree, &angles, Mechanism::foot(Side::Left));
         SolePose::swinging(&biped.mechanism, &kinematics)
     }

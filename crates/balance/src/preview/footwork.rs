@@ -1,6 +1,6 @@
 //! Footwork: what the half-steps ask of the body at a knot, apart from where its centre of mass goes.
 
-use dynamics::{Kinematics, Leg, atan2};
+use dynamics::{Kinematics, Leg, UpperBody, atan2};
 use model::{JointVector, Mechanism, Side};
 use nalgebra::{Vector2, Vector3};
 
@@ -80,9 +80,9 @@ impl Footwork {
     pub fn wanted(&self, biped: &Biped, com: Vector2<f64>) -> Wanted {
         let progress = self.course.walk.half_step().progress;
         let other_foot = Mechanism::foot(Side::Left);
-        let angles = self.course.walk.angles();
-        let asked = Kinematics::standing_up_to(&biped.tree, &angles, other_foot);
-        let nominal = self.course.walk.table().at(progress).angles;
+        let nominal = self.course.walk.table().angles_at(progress);
+        let asked = nominal + self.course.walk.offsets_at(progress);
+        let asked = Kinematics::standing_up_to(&biped.tree, &asked, other_foot);
         let pelvis_ahead = asked.rotation[PELVIS].column(0).into_owned();
         let mut swinging = self.swing.at(progress, &SolePose::swinging(&biped.mechanism, &asked));
         let [shift, ..] = self.shift.at(progress);
@@ -94,6 +94,7 @@ impl Footwork {
             pelvis_yaw: atan2(pelvis_ahead.y, pelvis_ahead.x),
             swinging,
             upper: nominal,
+            carried: UpperBody::new(&biped.tree, &nominal),
         }
     }
 

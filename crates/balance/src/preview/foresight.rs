@@ -133,11 +133,11 @@ impl Foresight {
     fn missed(&mut self, biped: &Biped, footprint: Footprint, slots: [usize; 3]) -> Option<Vector2<f64>> {
         let [before, here, after] = slots.map(|slot| &self.knots[slot].angles);
         let motion = Motion::between(before, here, after, KNOT);
-        match footprint.side {
-            Side::Right => self.inverse.stand(&biped.tree, &motion),
-            Side::Left => self.inverse.stand(&biped.tree, &motion.mirrored(&biped.mirror)),
-        }
-        let whole = footprint.point_to_walk(zmp(&self.inverse.ground)?);
+        let ground = match footprint.side {
+            Side::Right => self.inverse.ground_wrench(&biped.tree, &motion),
+            Side::Left => self.inverse.ground_wrench(&biped.tree, &motion.mirrored(&biped.mirror)),
+        };
+        let whole = footprint.point_to_walk(zmp(&ground)?);
         let knot = &self.knots[slots[1]];
         let pendulum = Vector2::from([0, 1].map(|axis| {
             let [position, _, acceleration] = knot.com[axis].into();
