@@ -9,13 +9,22 @@ use model::Wrench;
 use nalgebra::{Quaternion, Vector3};
 use plant::{SensorFault, SensorFaultKind};
 
-const MODES: [Mode; 7] =
-    [Mode::Standing, Mode::Starting, Mode::Walking, Mode::Stopping, Mode::Holding, Mode::Faulted, Mode::Fallen];
+const MODES: [Mode; 8] = [
+    Mode::Standing,
+    Mode::Starting,
+    Mode::Walking,
+    Mode::InPlace,
+    Mode::Stopping,
+    Mode::Holding,
+    Mode::Faulted,
+    Mode::Fallen,
+];
 
 /// What can be asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Ask {
     Walk,
+    InPlace,
     Stop,
     Hold,
     Reset,
@@ -24,13 +33,15 @@ enum Ask {
     SignOfLife,
 }
 
-const ASKS: [Ask; 7] = [Ask::Walk, Ask::Stop, Ask::Hold, Ask::Reset, Ask::Values, Ask::WalkWithValues, Ask::SignOfLife];
+const ASKS: [Ask; 8] =
+    [Ask::Walk, Ask::InPlace, Ask::Stop, Ask::Hold, Ask::Reset, Ask::Values, Ask::WalkWithValues, Ask::SignOfLife];
 
 impl Ask {
     fn asked(self) -> Asked {
         let values = Request { turn: Some(0.1), speed: Some(0.9), extension: Some(0.05) };
         let (request, intent) = match self {
             Ask::Walk => (Request::default(), Some(Intent::Walk)),
+            Ask::InPlace => (Request::default(), Some(Intent::InPlace)),
             Ask::Stop => (Request::default(), Some(Intent::Stop)),
             Ask::Hold => (Request::default(), Some(Intent::Hold)),
             Ask::Reset => (Request::default(), Some(Intent::Reset)),
@@ -52,12 +63,19 @@ fn expected(mode: Mode, ask: Ask) -> (Result<(), Refusal>, Mode) {
         (Mode::Faulted, Ask::Stop | Ask::Hold | Ask::SignOfLife) => (Ok(()), Mode::Faulted),
         (Mode::Faulted, _) => (Err(Refusal::Faulted), Mode::Faulted),
         _ if is_start => (Ok(()), Mode::Walking),
+        (_, Ask::InPlace) => (Ok(()), Mode::InPlace),
+        // The feet are side by side after each step in place.
+        (Mode::InPlace, Ask::Stop | Ask::Hold) => (Ok(()), Mode::Standing),
+        (Mode::InPlace, _) => (Ok(()), Mode::InPlace),
         (Mode::Walking, Ask::Stop) => (Ok(()), Mode::Standing),
         (Mode::Walking, Ask::Hold) => (Ok(()), Mode::Holding),
         (Mode::Walking, _) => (Ok(()), Mode::Walking),
         (Mode::Starting, Ask::Stop | Ask::Hold) => (Ok(()), Mode::Standing),
         (Mode::Starting, _) => (Ok(()), Mode::Walking),
+        // Not too late to stand otherwise.
+        (Mode::Stopping, Ask::Hold) => (Ok(()), Mode::Holding),
         (Mode::Standing | Mode::Stopping, _) => (Ok(()), Mode::Standing),
+        (Mode::Holding, Ask::Stop) => (Ok(()), Mode::Standing),
         (Mode::Holding, _) => (Ok(()), Mode::Holding),
     }
 }
@@ -69,6 +87,10 @@ fn in_mode(mode: Mode) -> Walking {
     walking.walk(2.0);
     match mode {
         Mode::Walking => {}
+        Mode::InPlace => {
+            ask(&mut walking, Ask::InPlace);
+            walking.walk(3.0);
+        }
         Mode::Stopping => {
             ask(&mut walking, Ask::Stop);
             walking.walk(0.1);

@@ -63,13 +63,15 @@ struct Sequence<'a> {
 impl Sequence<'_> {
     /// Changes the walk, stops it, or stops it and takes that back at once; says whether the robot stands then.
     fn while_walking(&mut self) -> Result<bool, Trouble> {
-        match self.random.random_range(0..8) {
-            0..5 => {
-                let what = self.change(None)?;
+        match self.random.random_range(0..9) {
+            0..6 => {
+                // Now and then on in place, now and then on from there.
+                let intent = [Some(Intent::InPlace), Some(Intent::Walk), None][self.random.random_range(0..3)];
+                let what = self.change(intent)?;
                 self.wait(0.4, 3.0, &what)?;
                 Ok(false)
             }
-            5..7 => self.stop().map(|()| true),
+            6..8 => self.stop().map(|()| true),
             _ => {
                 let intent = self.any_stop();
                 self.ask(Request::default(), Some(intent), "a stop to be taken back")?;
@@ -106,12 +108,14 @@ impl Sequence<'_> {
     }
 
     fn start(&mut self) -> Result<(), Trouble> {
-        let report = self.ask(Request::default(), Some(Intent::Walk), "a start")?;
+        let in_place = self.random.random_range(0..4) == 0;
+        let (intent, mode) = if in_place { (Intent::InPlace, Mode::InPlace) } else { (Intent::Walk, Mode::Walking) };
+        let report = self.ask(Request::default(), Some(intent), "a start")?;
         let (began, stood_in) = (self.walking.time(), report.half_step.index);
         // A stop that was too late to take back ends in a stand first.
         let patience = TO_STAND_MAX + TO_WALK_MAX;
-        self.until(patience, "started, not walking yet", |report| {
-            report.mode == Mode::Walking && report.half_step.index > stood_in
+        self.until(patience, &format!("started to {intent:?}, not there yet"), |report| {
+            report.mode == mode && report.half_step.index > stood_in
         })?;
         self.tally.starts += 1;
         self.tally.slowest_start = self.tally.slowest_start.max(self.walking.time() - began);

@@ -127,7 +127,7 @@ impl Controller {
         let mut faults = Faults::default();
 
         // Is anybody there?
-        if self.sources.advance(dt).is_some() && self.intent == Intent::Walk {
+        if self.sources.advance(dt).is_some() && self.is_on_its_way() {
             self.stop(Stance::Parallel);
         }
 
@@ -195,14 +195,20 @@ impl Controller {
             Gate::Closed(stance) if self.pattern.weight_on_bearing() < 1.0 => standing(stance),
             Gate::Closed(_) | Gate::Closing { .. } => Mode::Stopping,
             _ if self.pattern.weight_on_bearing() < 1.0 => Mode::Starting,
-            Gate::Open if self.intent != Intent::Walk && !self.pattern.can_stand() => Mode::Stopping,
+            Gate::Open if !self.is_on_its_way() && !self.pattern.can_stand() => Mode::Stopping,
             Gate::Open | Gate::Opening { .. } => Mode::Walking,
+            Gate::InPlace { .. } => Mode::InPlace,
         }
     }
 
     /// Whether the newest good measurement is of now and tells of a robot on its feet.
     pub(crate) fn is_well(&self) -> bool {
         self.watch.is_upright() && !self.watch.is_stale()
+    }
+
+    /// Whether half-steps are intended.
+    fn is_on_its_way(&self) -> bool {
+        matches!(self.intent, Intent::Walk | Intent::InPlace)
     }
 
     /// Whether the walk plans what the joints do.
@@ -214,7 +220,7 @@ impl Controller {
     fn latch(&mut self, fault: Fault) {
         if self.latched != Some(Fault::Fallen) {
             self.latched = Some(fault);
-            if fault != Fault::Fallen && self.intent == Intent::Walk {
+            if fault != Fault::Fallen && self.is_on_its_way() {
                 self.stop(Stance::Stride);
             }
         }
@@ -292,7 +298,7 @@ impl Controller {
     fn swap(&mut self) {
         self.feedback.swap(self.pattern.mirror());
         self.zmp_estimator.swap();
-        if self.intent != Intent::Walk && !self.pattern.can_stand() {
+        if !self.is_on_its_way() && !self.pattern.can_stand() {
             let pendulum_rate = self.plan.centre_of_mass.pendulum_rate();
             self.holding = Some(Holding::begin(&self.tree, &self.pattern.motion(), pendulum_rate));
         }

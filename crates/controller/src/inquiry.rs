@@ -4,7 +4,7 @@
 //! another thread in real time) and gives it back. It takes milliseconds and allocates nothing.
 
 use balance::Preview;
-use balance::preview::{Forecast, Forecaster, Limit, Stance, Strain};
+use balance::preview::{Forecast, Forecaster, Goal, Limit, Stance, Strain};
 use gait::{Admission, Command, Request, Verdict};
 
 use crate::Intent;
@@ -72,7 +72,7 @@ impl Inquiry {
         let ruling = self.ruling.unwrap_or_else(|| self.rule());
         let index = self.preview.half_step().index;
         let admission = apply(&mut self.preview, &ruling.admission.granted.into(), self.intent);
-        let stands = index + u64::from(self.preview.gate().swaps_to_stand());
+        let stands = index + u64::from(self.preview.gate().swaps_to_goal());
         let effect_half_step = admission.effect_half_step.max(stands);
         self.ruling = Some(Ruling { admission: Admission { effect_half_step, ..ruling.admission }, ..ruling });
     }
@@ -137,9 +137,10 @@ fn apply(preview: &mut Preview, request: &Request, intent: Option<Intent>) -> Ad
     let admission = preview.admit(request);
     if admission.verdict != Verdict::Refused {
         match intent {
-            Some(Intent::Walk) => preview.start(),
-            Some(Intent::Stop) => preview.stop(Stance::Parallel),
-            Some(Intent::Hold) => preview.stop(Stance::Stride),
+            Some(Intent::Walk) => preview.aim(Goal::Walk),
+            Some(Intent::InPlace) => preview.aim(Goal::InPlace),
+            Some(Intent::Stop) => preview.aim(Goal::Stand(Stance::Parallel)),
+            Some(Intent::Hold) => preview.aim(Goal::Stand(Stance::Stride)),
             Some(Intent::Reset) | None => {}
         }
     }

@@ -1,7 +1,7 @@
 //! The walking pattern: the modified half-step as it is, or with its balance planned ahead.
 
 use balance::Preview;
-use balance::preview::{Gate, Stance};
+use balance::preview::Gate;
 use gait::{Admission, Command, HalfStep, Request, Walk};
 use model::{Mechanism, Mirror, Motion};
 use nalgebra::Vector2;
@@ -67,20 +67,6 @@ impl Pattern {
         match self {
             Pattern::Plain(_) => 1.0,
             Pattern::Preview(preview) => preview.weight_on_bearing(),
-        }
-    }
-
-    /// Stops after the next half-step and stands on both feet, if it can.
-    pub fn stop(&mut self, stance: Stance) {
-        if let Pattern::Preview(preview) = self {
-            preview.stop(stance);
-        }
-    }
-
-    /// Walks on.
-    pub fn start(&mut self) {
-        if let Pattern::Preview(preview) = self {
-            preview.start();
         }
     }
 

@@ -3,7 +3,7 @@
 //! [`Controller::ask`] refuses at once what cannot be; anything else that changes a previewed walk becomes an [`Inquiry`],
 //! which is settled beside the loop and adopted as it is given back.
 
-use balance::preview::Stance;
+use balance::preview::{Goal, Stance};
 use gait::{Admission, Verdict};
 
 use crate::mode::Rising;
@@ -36,7 +36,9 @@ impl Controller {
             (_, Some(Intent::Reset)) => None,
             (Some(Fault::Fallen), _) => Some(Refusal::Fallen),
             (Some(_), _) if !asked.is_stop() && !asked.is_empty() => Some(Refusal::Faulted),
-            (_, None | Some(Intent::Walk)) if self.holding.is_some() && !asked.is_empty() => Some(Refusal::Standing),
+            (_, None | Some(Intent::Walk | Intent::InPlace)) if self.holding.is_some() && !asked.is_empty() => {
+                Some(Refusal::Standing)
+            }
             _ => None,
         };
         if refusal.is_some() {
@@ -44,7 +46,8 @@ impl Controller {
         } else if asked.intent == Some(Intent::Reset) {
             self.reset();
             self.answer = Some(self.unchanged(Verdict::Accepted));
-        } else if asked.is_empty() {
+        } else if asked.is_empty() || self.latched.is_some() {
+            // A faulted robot stands already, or is about to.
             self.answer = Some(self.unchanged(Verdict::Accepted));
         } else {
             self.look_into(asked);
@@ -97,7 +100,7 @@ impl Controller {
     pub(crate) fn stop(&mut self, stance: Stance) {
         self.intent = if stance == Stance::Parallel { Intent::Stop } else { Intent::Hold };
         if let Pattern::Preview(preview) = &mut self.pattern {
-            preview.stop(stance);
+            preview.aim_soon(Goal::Stand(stance));
         }
     }
 

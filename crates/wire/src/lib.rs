@@ -66,7 +66,7 @@ pub use report::{ReportPublisher, ReportSubscriber};
 pub use request::{Answer, RequestClient, RequestServer, Waiting};
 
 /// The version of all layouts and meanings. Ends of different versions refuse to talk.
-pub const PROTOCOL: u32 = 2;
+pub const PROTOCOL: u32 = 3;
 
 /// The kind of iceoryx2 ports: between processes, and movable between threads.
 type Ipc = iceoryx2::prelude::ipc_threadsafe::Service;

@@ -9,7 +9,7 @@ from enum import IntEnum, IntFlag
 
 from .message import Message
 
-PROTOCOL = 2
+PROTOCOL = 3
 """The version of all layouts and meanings."""
 
 
@@ -18,6 +18,7 @@ class Intent(IntEnum):
     STOP = 2  # stop
     HOLD = 3  # hold
     RESET = 4  # reset
+    IN_PLACE = 5  # in-place
 
 
 class Source(IntEnum):
@@ -72,6 +73,7 @@ class Mode(IntEnum):
     STANDING = 4  # standing
     STOPPING = 5  # stopping
     FAULTED = 6  # faulted
+    IN_PLACE = 7  # in place
 
 
 class Fault(IntFlag):

@@ -5,7 +5,8 @@ use gait::{Admission, Command, Request, Verdict, Walk};
 use model::{Joint, Mechanism, Side};
 use nalgebra::{Vector2, Vector3};
 
-use crate::preview::{Biped, Footprint, Gate, SolePose, Stance};
+use crate::preview::footprint::turned_about_z;
+use crate::preview::{Biped, Footprint, Gate, Goal, SolePose, Stance};
 
 /// The walk at a knot with its feet.
 #[derive(Clone, Debug)]
@@ -18,6 +19,17 @@ pub struct Course {
     pub feet: Feet,
     /// What is to be in force when the walk goes on; before a stand the walk is calmer.
     asked: Command,
+}
+
+/// What happens at a knot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// Nothing of the kind.
+    None,
+    /// The foot that landed bears now.
+    Swap,
+    /// The first half-step after a stand begins: the weight is on the foot that bears.
+    LiftOff,
 }
 
 /// Where the feet are in a half-step.
@@ -46,7 +58,7 @@ impl Course {
 
     /// At a stand with the feet side by side, about to walk when asked to.
     pub fn standing(biped: &Biped, walk: Walk) -> Self {
-        let parallel = parallel(biped);
+        let parallel = side_by_side(biped, 0.0);
         let footprint = Footprint::first(walk.half_step().support);
         let feet = Feet { footprint, standing: parallel, landing: parallel };
         let mut course = Self { asked: walk.command(), walk, gate: Gate::Closed(Stance::Parallel), feet };
@@ -65,41 +77,50 @@ impl Course {
         let mut admission = self.walk.grant(request, self.asked);
         if admission.verdict != Verdict::Refused {
             self.asked = admission.granted;
-            if self.gate == Gate::Open {
-                admission.effect_half_step = self.walk.force(&self.asked);
+            if let Some(effect_half_step) = self.obey() {
+                admission.effect_half_step = effect_half_step;
             }
         }
         admission
     }
 
-    /// Comes to a stand: straight on, no longer and no faster than the nominal.
-    pub fn stop(&mut self, stance: Stance) {
-        self.gate.close(stance);
-        let Command { speed, extension, .. } = self.walk.command();
-        self.walk.force(&Command { turn: 0.0, speed: speed.min(1.0), extension: extension.min(0.0) });
-    }
-
-    /// Walks on.
-    pub fn start(&mut self) {
-        self.gate.open();
-        if self.gate == Gate::Open {
-            self.walk.force(&self.asked);
+    /// Walks, steps in place or comes to a stand.
+    pub fn aim(&mut self, goal: Goal) {
+        self.gate.aim(goal);
+        if matches!(self.gate, Gate::Closing { .. }) {
+            let Command { speed, extension, .. } = self.walk.command();
+            self.walk.force(&Command { turn: 0.0, speed: speed.min(1.0), extension: extension.min(0.0) });
+        } else {
+            self.obey();
         }
     }
 
-    /// Moves on by a knot and says whether a half-step began.
-    pub fn advance(&mut self, biped: &Biped) -> bool {
+    /// Walks by what is asked, if it walks; in place no faster than the nominal. See [`Walk::force`].
+    fn obey(&mut self) -> Option<u64> {
+        let Command { turn, speed, .. } = self.asked;
+        match self.gate {
+            Gate::Open => Some(self.walk.force(&self.asked)),
+            Gate::InPlace { .. } => Some(self.walk.force(&Command { turn, speed: speed.min(1.0), extension: 0.0 })),
+            Gate::Closing { .. } | Gate::Closed(_) | Gate::Opening { .. } => None,
+        }
+    }
+
+    /// Moves on by a knot.
+    pub fn advance(&mut self, biped: &Biped) -> Event {
         let was_standing = self.gate.is_standing();
         let begins = self.gate.advance(&mut self.walk);
-        if was_standing && self.gate == Gate::Open {
-            self.walk.force(&self.asked);
-        }
         if begins {
             self.feet.standing = self.feet.landing.seen_from_landed();
             self.feet.footprint = self.feet.footprint.next(&self.feet.landing);
             self.feet.landing = self.landing(biped);
+            Event::Swap
+        } else if was_standing && !self.gate.is_standing() {
+            self.obey();
+            self.feet.landing = self.landing(biped);
+            Event::LiftOff
+        } else {
+            Event::None
         }
-        begins
     }
 
     /// What the outlook takes the pendulum to leave out of the ZMP, in support coordinates [m].
@@ -112,12 +133,13 @@ impl Course {
 
     /// Where the swinging sole of the present half-step is to land.
     fn landing(&self, biped: &Biped) -> SolePose {
-        if self.gate.lands_parallel() {
-            return parallel(biped);
-        }
         let mut landing = self.swinging_sole(biped, 1.0);
         landing.position.z = 0.0;
-        landing
+        match self.gate {
+            Gate::Closing { swaps: 1, stance: Stance::Parallel, .. } => side_by_side(biped, 0.0),
+            Gate::InPlace { swaps: 0 } => side_by_side(biped, landing.yaw),
+            _ => landing,
+        }
     }
 
     /// The swinging sole of the modified half-step at a progress.
@@ -128,8 +150,8 @@ impl Course {
     }
 }
 
-/// The other sole beside the bearing one.
-fn parallel(biped: &Biped) -> SolePose {
+/// The other sole beside the bearing one, either turned from the hips' heading by half the yaw.
+fn side_by_side(biped: &Biped, yaw: f64) -> SolePose {
     let width = biped.mechanism.links[Joint::LeftHipRoll].origin.y;
-    SolePose { position: Vector3::new(0.0, width, 0.0), yaw: 0.0 }
+    SolePose { position: turned_about_z(yaw / 2.0) * Vector3::new(0.0, width, 0.0), yaw }
 }

@@ -4,7 +4,7 @@ use dynamics::{Kinematics, Leg, UpperBody, atan2};
 use model::{JointVector, Mechanism, Side};
 use nalgebra::{Vector2, Vector3};
 
-use crate::preview::{Biped, Course, Gate, HipHeight, KNOT, LandingShift, SolePose, SwingPath, Wanted};
+use crate::preview::{Biped, Course, Event, HipHeight, KNOT, LandingShift, SolePose, SwingPath, Wanted};
 
 /// The course at a knot, with the paths of the swinging sole and of the hips' height.
 #[derive(Clone, Debug)]
@@ -39,10 +39,12 @@ impl Footwork {
     /// Moves on by a knot and says whether a half-step began.
     pub fn advance(&mut self, biped: &Biped) -> bool {
         let Self { course, swing, shift, hips } = self;
-        let begins = course.advance(biped);
-        if begins {
+        let event = course.advance(biped);
+        if event != Event::None {
             *swing = swing_path(biped, course);
             *shift = LandingShift::default();
+        }
+        if event == Event::Swap {
             let speed = course.walk.speed().target().min(course.walk.speed().state().value);
             let half_duration = 0.5 * course.walk.table().duration / speed / biped.sway.height_over_gravity.sqrt();
             hips.begin_half_step(half_duration, |progress| swing.at(progress, &course.swinging_sole(biped, progress)));
@@ -50,24 +52,35 @@ impl Footwork {
         if course.gate.is_standing() {
             hips.crouch(&course.feet.standing, course.gate.shifted());
         }
-        begins
+        event == Event::Swap
     }
 
     /// Lands the swinging foot `shift` off where the walk asks, in support coordinates [m], as far as feet and legs let it;
     /// says whether that changed anything. Nothing changes late in a half-step or before a stand.
     pub fn shift_landing(&mut self, shift: Vector2<f64>) -> bool {
-        let asked = self.course.feet.landing.position.xy() - self.shift.target();
-        let inward = (SOLES_APART - asked.y).min(0.0);
-        let shift = Vector2::new(shift.x.clamp(-SHIFT_MAX.x, SHIFT_MAX.x), shift.y.clamp(inward, SHIFT_MAX.y));
-        let is_new = (shift - self.shift.target()).amax() > SHIFT_STEP;
-        let shifts = is_new
-            && self.course.gate == Gate::Open
-            && self.shift.retarget(self.course.walk.half_step().progress, shift);
-        if shifts {
-            self.course.feet.landing.position.x = asked.x + shift.x;
-            self.course.feet.landing.position.y = asked.y + shift.y;
+        if !self.is_worth_shifting(shift) {
+            return false;
         }
-        shifts
+        let shift = self.within_reach(shift);
+        let landing = self.unshifted_landing() + shift;
+        (self.course.feet.landing.position.x, self.course.feet.landing.position.y) = (landing.x, landing.y);
+        self.shift.retarget(self.course.walk.half_step().progress, shift);
+        true
+    }
+
+    /// Whether [`shift_landing`](Self::shift_landing) would change anything.
+    pub fn is_worth_shifting(&self, shift: Vector2<f64>) -> bool {
+        let is_new = (self.within_reach(shift) - self.shift.target()).amax() > SHIFT_STEP;
+        is_new && self.course.gate.walks() && LandingShift::is_in_time(self.course.walk.half_step().progress)
+    }
+
+    fn unshifted_landing(&self) -> Vector2<f64> {
+        self.course.feet.landing.position.xy() - self.shift.target()
+    }
+
+    fn within_reach(&self, shift: Vector2<f64>) -> Vector2<f64> {
+        let inward = (SOLES_APART - self.unshifted_landing().y).min(0.0);
+        Vector2::new(shift.x.clamp(-SHIFT_MAX.x, SHIFT_MAX.x), shift.y.clamp(inward, SHIFT_MAX.y))
     }
 
     /// How many knots are left of the half-step at the present speed.

@@ -6,7 +6,7 @@ use model::{JointVector, Motion, Side};
 use nalgebra::Vector2;
 
 use crate::preview::biped::KNOTS_FORESEEN;
-use crate::preview::{Biped, CartState, Footprint, Footwork, KNOT, Outlook, Wanted, WholeBody};
+use crate::preview::{Biped, CartState, Course, Footprint, Footwork, KNOT, Outlook, Wanted, WholeBody};
 
 /// The coming knots as the pendulum alone would have them. Played anew when a request changes what is to come; else one
 /// knot is added as one is used.
@@ -23,6 +23,19 @@ pub struct Foresight {
     present: usize,
     /// How many knots after the present one are known.
     ahead: usize,
+    /// What is to be done next about the farthest one.
+    stage: Stage,
+}
+
+/// A knot more is seen in parts, so that no tick does all of it.
+#[derive(Clone, Copy, Debug)]
+enum Stage {
+    /// Where the feet are and the pendulum is.
+    Pendulum,
+    /// The posture that does it; with the foot that bore at the knot before.
+    Posture(Footprint),
+    /// What the pendulum leaves out of the ZMP of the knot before: only then it has a neighbour on either side.
+    Zmp(Footprint),
 }
 
 /// One knot to come.
@@ -57,6 +70,7 @@ impl Foresight {
             knots,
             present: 0,
             ahead: 0,
+            stage: Stage::Pendulum,
         };
         foresight.begin(biped, footwork);
         foresight
@@ -64,23 +78,57 @@ impl Foresight {
 
     /// Looks ahead anew from where the walk is at the present knot.
     pub fn begin(&mut self, biped: &Biped, footwork: &Footwork) {
+        self.restart(biped, footwork);
+        self.complete(biped);
+    }
+
+    /// Forgets what was foreseen: the walk goes on from the present knot by other footwork.
+    pub fn restart(&mut self, biped: &Biped, footwork: &Footwork) {
         self.footwork.clone_from(footwork);
         self.outlook.begin(biped, &footwork.course);
-        self.ahead = 0;
+        (self.ahead, self.stage) = (0, Stage::Pendulum);
         let [before, now] =
             [self.slot(0) + self.knots.len() - 1, self.slot(0)].map(|slot| self.knots[slot % self.knots.len()].angles);
         self.body = WholeBody::new(biped, &footwork.physical(biped, &now));
         self.body.expect(&footwork.physical(biped, &(now - before)));
-        while self.ahead < KNOTS_FORESEEN {
+    }
+
+    /// Sees all that is to be seen.
+    pub fn complete(&mut self, biped: &Biped) {
+        while self.missing() > 0 {
             self.extend(biped);
         }
     }
 
-    /// The next knot becomes the present one, and one more comes into sight.
-    pub fn advance(&mut self, biped: &Biped) {
+    /// How many knots are still to be seen.
+    pub fn missing(&self) -> usize {
+        KNOTS_FORESEEN - self.ahead
+    }
+
+    /// Sees a knot more, or what is left of one.
+    pub fn extend(&mut self, biped: &Biped) {
+        let ahead = self.ahead;
+        while self.ahead == ahead {
+            self.work(biped);
+        }
+    }
+
+    /// The next knot becomes the present one; to be seen completely before the next time.
+    pub fn advance(&mut self) {
         self.present = self.slot(1);
         self.ahead -= 1;
-        self.extend(biped);
+    }
+
+    /// Sees as much of the knot that is missing as is due when a share of the time to the next knot has passed.
+    pub fn keep_up(&mut self, biped: &Biped, share: f64) {
+        let done = |stage| match stage {
+            Stage::Pendulum => 0.25,
+            Stage::Posture(_) => 0.5,
+            Stage::Zmp(_) => 0.75,
+        };
+        while self.missing() > 0 && done(self.stage) <= share {
+            self.work(biped);
+        }
     }
 
     /// What the present knot asks of the posture, with the centre of mass off the pendulum by `correction`; both in the walk
@@ -102,31 +150,41 @@ impl Foresight {
         (self.present + ahead) % self.knots.len()
     }
 
-    fn extend(&mut self, biped: &Biped) {
+    fn work(&mut self, biped: &Biped) {
         let [before, last, new] =
             [self.ahead + self.knots.len() - 1, self.ahead, self.ahead + 1].map(|ahead| self.slot(ahead));
-        let Foreseen { com, unexpected, .. } = self.knots[last];
         let footprint = self.footwork.course.feet.footprint;
-
-        let sum = self.outlook.weighed(&biped.pendulum);
-        let com = [0, 1].map(|axis| biped.pendulum.advance(&com[axis], sum[axis]));
-        self.outlook.advance(biped);
-        if self.footwork.advance(biped) {
-            self.body.swap(biped);
-        }
-        let wanted = self.footwork.wanted(biped, place(&com));
-        let reached = self.body.reach(biped, &wanted);
-        let angles = reached.map_or(self.knots[last].angles, |angles| self.footwork.physical(biped, &angles));
-        let expected =
-            self.footwork.course.feet.footprint.direction_to_walk(self.footwork.course.beyond_pendulum(biped));
-        self.knots[new] = Foreseen { com, wanted, angles, expected, unexpected };
-        self.ahead += 1;
-
-        // Only now the knot before it has a neighbour on either side.
-        if let Some(missed) = self.missed(biped, footprint, [before, last, new]) {
-            self.knots[last].unexpected = missed;
-            self.knots[new].unexpected = missed;
-        }
+        self.stage = match self.stage {
+            Stage::Pendulum => {
+                let sum = self.outlook.weighed(&biped.pendulum);
+                let com = self.knots[last].com;
+                let com = [0, 1].map(|axis| biped.pendulum.advance(&com[axis], sum[axis]));
+                self.outlook.advance(biped);
+                if self.footwork.advance(biped) {
+                    self.body.swap(biped);
+                }
+                let Course { feet, .. } = &self.footwork.course;
+                self.knots[new].com = com;
+                self.knots[new].wanted = self.footwork.wanted(biped, place(&com));
+                self.knots[new].expected =
+                    feet.footprint.direction_to_walk(self.footwork.course.beyond_pendulum(biped));
+                Stage::Posture(footprint)
+            }
+            Stage::Posture(before) => {
+                let reached = self.body.reach(biped, &self.knots[new].wanted);
+                self.knots[new].angles =
+                    reached.map_or(self.knots[last].angles, |angles| self.footwork.physical(biped, &angles));
+                Stage::Zmp(before)
+            }
+            Stage::Zmp(footprint) => {
+                let missed = self.missed(biped, footprint, [before, last, new]);
+                let missed = missed.unwrap_or(self.knots[last].unexpected);
+                self.knots[last].unexpected = missed;
+                self.knots[new].unexpected = missed;
+                self.ahead += 1;
+                Stage::Pendulum
+            }
+        };
     }
 
     /// What the pendulum leaves out of the ZMP and nobody expected at the middle one of three knots, in the walk frame [m].

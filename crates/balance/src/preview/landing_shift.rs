@@ -26,11 +26,13 @@ impl LandingShift {
         self.target
     }
 
-    /// Lands elsewhere; says whether there is time for that.
-    pub fn retarget(&mut self, progress: f64, target: Vector2<f64>) -> bool {
-        if progress > DECIDED {
-            return false;
-        }
+    /// Whether there is time to land elsewhere.
+    pub fn is_in_time(progress: f64) -> bool {
+        progress <= DECIDED
+    }
+
+    /// Lands elsewhere, while [`is_in_time`](Self::is_in_time).
+    pub fn retarget(&mut self, progress: f64, target: Vector2<f64>) {
         let [value, rate, acceleration] = self.at(progress);
         let span = OVER_PLACE - progress;
         let (rate, acceleration, way) = (rate * span, acceleration * (span * span), target - value);
@@ -44,7 +46,6 @@ impl LandingShift {
         ];
         self.since = progress;
         self.target = target;
-        true
     }
 
     /// The shift at a progress [m], with its first and second derivative by the progress.
@@ -74,7 +75,8 @@ mod tests {
         let mut shift = LandingShift::default();
         for (progress, target) in [(0.2, Vector2::new(0.1, -0.03)), (0.55, Vector2::new(-0.02, 0.05))] {
             let before = shift.at(progress);
-            assert!(shift.retarget(progress, target));
+            assert!(LandingShift::is_in_time(progress));
+            shift.retarget(progress, target);
             let after = shift.at(progress);
             for (before, after) in before.iter().zip(after) {
                 assert!((before - after).norm() < 1e-12 * (1.0 + before.norm()), "{before} {after}");
@@ -82,7 +84,7 @@ mod tests {
             let [end, rate, acceleration] = shift.at(OVER_PLACE - 1e-9);
             assert!((end - target).norm() < 1e-9 && rate.norm() < 1e-6 && acceleration.norm() < 1e-4);
         }
-        assert!(!shift.retarget(0.8, Vector2::zeros()));
+        assert!(!LandingShift::is_in_time(0.8));
         assert_eq!(shift.at(1.0)[0], Vector2::new(-0.02, 0.05));
     }
 

@@ -8,6 +8,7 @@
 mod biped;
 mod cart_table;
 mod course;
+mod draft;
 mod floor;
 mod footprint;
 mod footwork;
@@ -25,13 +26,14 @@ mod whole_body;
 
 pub use biped::Biped;
 pub use cart_table::{CartState, CartTable};
-pub use course::{Course, Feet};
+pub use course::{Course, Event, Feet};
+pub use draft::{Change, Draft};
 pub use floor::Floor;
 pub use footprint::{Footprint, SolePose};
 pub use footwork::Footwork;
 pub use forecast::{Forecast, ForecastParameters, Forecaster, Limit, Strain};
 pub use foresight::Foresight;
-pub use gate::{Gate, Stance};
+pub use gate::{Gate, Goal, Stance};
 pub use height::Height;
 pub use hip_height::HipHeight;
 pub use landing_shift::LandingShift;

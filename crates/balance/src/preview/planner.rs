@@ -8,7 +8,7 @@ use model::{GRAVITY, Joint, JointVector, Mechanism, Motion, Side};
 use nalgebra::Vector2;
 
 use crate::preview::{
-    Biped, CartState, Course, Floor, Footprint, Footwork, Foresight, Gate, Height, Stance, WholeBody,
+    Biped, CartState, Change, Course, Draft, Floor, Footprint, Footwork, Foresight, Gate, Goal, Height, WholeBody,
 };
 
 /// Time between knots [s].
@@ -24,6 +24,7 @@ pub struct Preview {
     /// At the newest knot.
     footwork: Footwork,
     foresight: Foresight,
+    draft: Draft,
     /// What the whole body needs besides the pendulum's plan.
     correction: [CartState; 2],
     body: WholeBody,
@@ -96,8 +97,10 @@ impl Preview {
             vertical: Vector2::zeros(),
             weight: footwork.course.gate.weight_on_bearing(),
         };
+        let foresight = Foresight::new(&biped, &footwork, com, motion);
         let mut preview = Self {
-            foresight: Foresight::new(&biped, &footwork, com, motion),
+            draft: Draft::none(&footwork, &foresight),
+            foresight,
             correction: [CartState::zeros(); 2],
             body: WholeBody::new(&biped, &motion.angles),
             floor: Floor::default(),
@@ -143,22 +146,20 @@ impl Preview {
         admission
     }
 
-    /// Stops after the next half-step and stands on both feet.
-    pub fn stop(&mut self, stance: Stance) {
+    /// Walks on, steps in place or comes to a stand: at once. Costs the time of a look ahead; see [`Preview::aim_soon`].
+    pub fn aim(&mut self, goal: Goal) {
         let before = self.gate();
-        self.footwork.course.stop(stance);
-        if self.gate() != before {
+        let Change { goal: overruled, .. } = self.draft.change();
+        self.footwork.course.aim(goal);
+        if self.gate() != before || overruled.is_some_and(|overruled| overruled != goal) {
+            self.draft.forget_goal();
             self.look_ahead();
         }
     }
 
-    /// Walks on, after a stand with a shift of weight first.
-    pub fn start(&mut self) {
-        let before = self.gate();
-        self.footwork.course.start();
-        if self.gate() != before {
-            self.look_ahead();
-        }
+    /// The same within two knots, the look ahead spread over the ticks until then.
+    pub fn aim_soon(&mut self, goal: Goal) {
+        self.change_soon(Change { goal: Some(goal), shift: None });
     }
 
     /// Whether it walks, stands or is about to, at the newest knot.
@@ -168,8 +169,20 @@ impl Preview {
 
     /// What is to come has changed: plays it anew. Not done for a stream that asks the same again and again.
     fn look_ahead(&mut self) {
+        // What was in the making is made at once.
+        self.draft.take().apply(&mut self.footwork);
         self.foresight.begin(&self.biped, &self.footwork);
         self.stamp += 1;
+    }
+
+    /// Has something changed by the time it is played ahead; says whether there is anything to change.
+    fn change_soon(&mut self, change: Change) -> bool {
+        let Self { biped, footwork, foresight, draft, elapsed, .. } = self;
+        let changes = draft.begin(biped, footwork, foresight, change, *elapsed);
+        if changes {
+            self.stamp += 1;
+        }
+        changes
     }
 
     /// What is in force, or will be when the walk goes on.
@@ -180,11 +193,14 @@ impl Preview {
     /// Moves on by `dt` [s], at most a nominal half-step, and says whether a new half-step began.
     pub fn advance(&mut self, dt: f64) -> bool {
         let before = self.half_step().index;
-        self.elapsed += dt.min(self.footwork.course.walk.table().duration).max(0.0);
+        let dt = dt.min(self.footwork.course.walk.table().duration).max(0.0);
+        self.elapsed += dt;
         while self.elapsed >= KNOT {
             self.elapsed -= KNOT;
             self.plan_knot();
         }
+        self.foresight.keep_up(&self.biped, self.elapsed / KNOT);
+        self.draft.work(&self.biped, self.elapsed, dt);
         self.half_step().index != before
     }
 
@@ -248,9 +264,9 @@ impl Preview {
         }
         let knots = self.footwork.knots_left() as i32;
         let growth = (1.0 + KNOT / self.biped.sway.height_over_gravity.sqrt()).powi(knots);
-        if self.footwork.shift_landing(excess(growth)) {
+        let shift = excess(growth);
+        if self.footwork.is_worth_shifting(shift) && self.change_soon(Change { goal: None, shift: Some(shift) }) {
             self.since_shift = 0;
-            self.look_ahead();
         }
     }
 
@@ -303,14 +319,19 @@ impl Preview {
     fn plan_knot(&mut self) {
         self.since_shift = self.since_shift.saturating_add(1);
         let biped = &*self.biped;
+        self.foresight.complete(biped);
         let wanted = self.foresight.weighed(biped);
         self.correction = [0, 1].map(|axis| biped.correction.advance(&self.correction[axis], wanted[axis]));
-        self.foresight.advance(biped);
+        self.foresight.advance();
         if self.footwork.advance(biped) {
             self.body.swap(biped);
             self.height.swap();
             // Turned the same, seen in the mirror.
             self.tilt.x = -self.tilt.x;
+        }
+        if let Some((footwork, foresight)) = self.draft.due(biped) {
+            self.footwork.clone_from(footwork);
+            self.foresight.clone_from(foresight);
         }
 
         self.floor.advance(KNOT);

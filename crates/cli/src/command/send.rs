@@ -47,6 +47,8 @@ enum Asked {
     },
     /// Walk on
     Walk,
+    /// Step in place, turning if a turn is asked
+    InPlace,
     /// Come to a stand at the end of the half-step
     Stop,
     /// Keep the posture
@@ -88,6 +90,7 @@ impl Asked {
             Asked::Speed { factor } => Request { speed: Some(factor), ..nothing },
             Asked::Extend { degrees } => Request { extension: Some(degrees.to_radians()), ..nothing },
             Asked::Walk => intent(Intent::Walk),
+            Asked::InPlace => intent(Intent::InPlace),
             Asked::Stop => intent(Intent::Stop),
             Asked::Hold => intent(Intent::Hold),
             Asked::Reset => intent(Intent::Reset),

@@ -38,6 +38,7 @@ pub fn reply(answer: &Answer) -> Reply {
         Intent::Stop => wire::Intent::Stop,
         Intent::Hold => wire::Intent::Hold,
         Intent::Reset => wire::Intent::Reset,
+        Intent::InPlace => wire::Intent::InPlace,
     });
     let granted = Granted { turn, speed, extension, intent };
     let effect_half_step = admission.effect_half_step;

@@ -58,6 +58,7 @@ pub fn mode(mode: Mode) -> wire::Mode {
         Mode::Standing => wire::Mode::Standing,
         Mode::Stopping => wire::Mode::Stopping,
         Mode::Faulted => wire::Mode::Faulted,
+        Mode::InPlace => wire::Mode::InPlace,
     }
 }
 

@@ -21,6 +21,7 @@ pub fn for_controller(message: &RequestMessage) -> Result<(u64, Asked), Reason> 
         Some(wire::Intent::Stop) => Some(Intent::Stop),
         Some(wire::Intent::Hold) => Some(Intent::Hold),
         Some(wire::Intent::Reset) => Some(Intent::Reset),
+        Some(wire::Intent::InPlace) => Some(Intent::InPlace),
     };
     let lasting = match request.lasting {
         wire::Lasting::UntilChanged | wire::Lasting::Farewell => Lasting::UntilChanged,

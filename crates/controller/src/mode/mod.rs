@@ -15,6 +15,8 @@ pub enum Mode {
     Starting,
     /// Half-step after half-step.
     Walking,
+    /// The same without getting ahead.
+    InPlace,
     /// The last half-steps before a stand.
     Stopping,
     /// On both feet, in stride.
@@ -30,7 +32,9 @@ pub enum Mode {
 pub enum Intent {
     /// Walk, or walk on.
     Walk,
-    /// Come to a stand with the feet side by side.
+    /// Step in place: half-steps of no length, turning if a turn is asked, until something else is asked.
+    InPlace,
+    /// Come to a stand with the feet side by side; from a stand in stride by one more half-step.
     Stop,
     /// Pause: come to a stand in stride.
     Hold,

@@ -24,6 +24,8 @@ codes! {
         Stopping = 5 "stopping",
         /// Standing until a reset, since something went wrong.
         Faulted = 6 "faulted",
+        /// Half-step after half-step without getting ahead.
+        InPlace = 7 "in place",
     }
 }
 

@@ -17,6 +17,8 @@ codes! {
         Hold = 3 "hold",
         /// Take back a latched fault.
         Reset = 4 "reset",
+        /// Step without getting ahead, turning if a turn is asked.
+        InPlace = 5 "in-place",
     }
 }
 
