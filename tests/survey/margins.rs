@@ -1,4 +1,5 @@
-//! Margins: the least margin of each half-step as the plan predicts it against what is then measured.
+//! Margins: the least margin of each half-step as the plan predicts it against what is then measured; and the one that a
+//! reply tells against the least of the time it tells of.
 
 use controller::Mode;
 use gait::Command;
@@ -28,6 +29,25 @@ const GOOD_SHARE: f64 = 0.95;
 const BIN: f64 = 0.005;
 const BINS: i32 = 6;
 
+/// How far ahead a reply tells [s].
+const FORETOLD: f64 = 2.8;
+
+/// What a walk gave.
+#[derive(Default)]
+struct Walked {
+    half_steps: Vec<HalfStep>,
+    /// What replies said of a time in which nothing else was asked: measured less predicted [m].
+    replies: Vec<f64>,
+    fell: bool,
+}
+
+/// What a reply said, until the time it tells of is over [m, s].
+struct Promise {
+    predicted: f64,
+    measured: f64,
+    until: f64,
+}
+
 /// The least margins of a half-step [m].
 struct HalfStep {
     predicted: f64,
@@ -38,8 +58,9 @@ struct HalfStep {
 
 pub fn survey(options: &Options) -> bool {
     let walks = on_all_cores(options.seeds as usize, |seed| walk(seed as u64, options.seconds));
-    let falls = walks.iter().filter(|(_, fell)| *fell).count();
-    let half_steps: Vec<HalfStep> = walks.into_iter().flat_map(|(half_steps, _)| half_steps).collect();
+    let falls = walks.iter().filter(|walk| walk.fell).count();
+    let replies: Vec<f64> = walks.iter().flat_map(|walk| walk.replies.clone()).collect();
+    let half_steps: Vec<HalfStep> = walks.into_iter().flat_map(|walk| walk.half_steps).collect();
     let (steady, changing): (Vec<&HalfStep>, Vec<&HalfStep>) = half_steps.iter().partition(|it| it.steady);
     let all: Vec<&HalfStep> = half_steps.iter().collect();
 
@@ -69,8 +90,25 @@ pub fn survey(options: &Options) -> bool {
     rows.push(row("half-steps", &|group| group.len().to_string()));
     rows.push(row("within 10 mm %", &|group| format!("{:.1}", 100.0 * good_share(group))));
     table::print(&["", "all", "steady", "changing"], &rows);
+    println!("{}", told_of_replies(replies));
     println!("{falls} falls");
     good_share(&all) >= GOOD_SHARE && falls == 0
+}
+
+/// Where what was measured lies against what replies foretold.
+fn told_of_replies(mut replies: Vec<f64>) -> String {
+    replies.sort_by(f64::total_cmp);
+    let good = replies.iter().filter(|off| off.abs() <= GOOD).count() as f64 / replies.len().max(1) as f64;
+    let at = |share: f64| replies.get((share * replies.len() as f64) as usize).map_or(f64::NAN, |off| off * 1e3);
+    format!(
+        "measured less foretold by a reply for {FORETOLD} s, of {} replies: within 10 mm {:.1} %, \
+         5 % / median / 95 % {:.1} / {:.1} / {:.1} mm",
+        replies.len(),
+        100.0 * good,
+        at(0.05),
+        at(0.5),
+        at(0.95)
+    )
 }
 
 fn good_share(half_steps: &[&HalfStep]) -> f64 {
@@ -78,21 +116,29 @@ fn good_share(half_steps: &[&HalfStep]) -> f64 {
     good as f64 / half_steps.len().max(1) as f64
 }
 
-/// The half-steps of a random stream, and whether it fell.
-fn walk(seed: u64, seconds: f64) -> (Vec<HalfStep>, bool) {
+/// A random stream.
+fn walk(seed: u64, seconds: f64) -> Walked {
     let sole = mechanism().sole;
     let mut watched = Watched::new(Walking::begin(seed));
     let mut source = Source::new(seed);
-    let mut half_steps = Vec::new();
+    let mut walked = Walked::default();
+    let mut promise: Option<Promise> = None;
     let none = HalfStep { predicted: f64::INFINITY, measured: f64::INFINITY, steady: true };
     let (mut present, mut index, mut command, mut changed_in) = (none, 0, Command::NOMINAL, None);
     while watched.fall.is_none() && watched.walking.time() < seconds {
         let request = source.next(watched.report.half_step.index);
         watched.tick(request.as_ref());
-        let report = &watched.report;
+        let (report, now) = (&watched.report, watched.walking.time());
+        if let Some(answer) = report.answer {
+            let until = now + FORETOLD;
+            promise = answer.predicted_margin.map(|predicted| Promise { predicted, measured: f64::INFINITY, until });
+        }
+        if let Some(Promise { predicted, measured, .. }) = promise.take_if(|promise| now >= promise.until) {
+            walked.replies.push(measured - predicted);
+        }
         if report.half_step.index != index {
             if present.predicted.is_finite() {
-                half_steps.push(present);
+                walked.half_steps.push(present);
             }
             index = report.half_step.index;
             let steady = changed_in.is_none_or(|changed| index > changed + 2);
@@ -107,7 +153,11 @@ fn walk(seed: u64, seconds: f64) -> (Vec<HalfStep>, bool) {
             let zmp = report.zmp_planned;
             present.predicted = present.predicted.min(sole.margin(zmp.x, zmp.y));
             present.measured = present.measured.min(report.margin);
+            if let Some(promise) = &mut promise {
+                promise.measured = promise.measured.min(report.margin);
+            }
         }
     }
-    (half_steps, watched.fall.is_some())
+    walked.fell = watched.fall.is_some();
+    walked
 }
