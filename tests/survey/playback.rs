@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use balance::{CentreOfMass, Feedback, FeedbackParameters, PaperLean, Plan, Sensed};
+use balance::{Balance, CentreOfMass, Feedback, FeedbackParameters, PaperLean, Plan, Sensed};
 use dynamics::{Kinematics, Tree};
 use gait::{Command, GaitParameters, NominalTable, Start, Walk, interpolate};
 use model::{Mechanism, Motion, Side};
@@ -76,7 +76,8 @@ impl Playback {
     fn tick(&mut self) {
         // Balance answers what was sensed, told from the foot that bore then.
         let sensed = self.centre_of_mass();
-        self.feedback.update(&self.plan.centre_of_mass, Some(&sensed), Vector2::zeros(), self.plan.zmp, false, PERIOD);
+        let sensed = Balance { centre_of_mass: sensed, tilt: Vector2::zeros(), zmp: None };
+        self.feedback.update(&self.plan.balance(), Some(&sensed), false, PERIOD);
         self.since_swap += PERIOD;
         if self.walk.advance(PERIOD) {
             self.feedback.swap(self.walk.mirror());

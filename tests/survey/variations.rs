@@ -3,7 +3,7 @@
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::{Walking, controller_parameters, plant_parameters};
 use nalgebra::Vector3;
-use plant::{Parameters, Payload, Slope};
+use plant::{Parameters, Payload, Slope, Unevenness};
 
 use crate::asked;
 use crate::cores::on_all_cores;
@@ -92,6 +92,9 @@ fn variations(seeds: u64) -> Vec<Variation> {
         let slope = Slope { ahead: ahead.to_radians(), left: left.to_radians() };
         move |parameters: &mut Parameters| parameters.slope = slope
     };
+    let tiles = |height: f64| {
+        move |parameters: &mut Parameters| parameters.unevenness = Unevenness { height, ..Unevenness::default() }
+    };
     let mut variations = vec![
         vary("nothing", &|_| {}),
         vary("friction 0.5", &|parameters| parameters.contact.friction = 0.5),
@@ -102,6 +105,7 @@ fn variations(seeds: u64) -> Vec<Variation> {
         vary("slope 2° down ahead", &slope(-2.0, 0.0)),
         vary("slope 2° up to the left", &slope(0.0, 2.0)),
         vary("slope 2° up to the right", &slope(0.0, -2.0)),
+        vary("tiles 2 mm", &tiles(0.002)),
         vary("sensor delay 3 ms", &|parameters| parameters.sensors.delay_periods = 3),
     ];
     variations.extend((0..seeds).map(|seed| Variation {

@@ -18,12 +18,26 @@ const SHIFT_ON_BOTH_FEET: f64 = 0.03;
 /// [m].
 const LEFT_TO_NEXT_ANKLE: Vector2<f64> = Vector2::new(0.05, 0.03);
 
+/// Farthest that the ankle gives back [m]: 5° of the sole.
+const UNEVENNESS_MAX: f64 = 0.6;
+
 /// A step is no answer to a sensor's glitch: errors count over this time [s], and up to a length [m].
 const ERROR_TIME_CONSTANT: f64 = 0.015;
 const ERROR_MAX: f64 = 0.3;
 
 /// Rotation of the body over the bearing ankle, about x and y [rad].
 pub type AnkleLean = Vector2<f64>;
+
+/// How the robot balances, as planned or as sensed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Balance {
+    /// Against the bearing sole.
+    pub centre_of_mass: CentreOfMass,
+    /// How it is turned beyond the plan, about x and y [rad].
+    pub tilt: Vector2<f64>,
+    /// Where the ground pushes [m]; as sensed only if the bearing foot bears alone.
+    pub zmp: Option<Vector2<f64>>,
+}
 
 /// Turns the error of the divergent component into ankle angles. The bearing ankle follows the wanted lean, the other one
 /// levels its sole; what it still has from its own turn fades out. Both do so as critically damped second-order lags, so
@@ -41,6 +55,8 @@ pub struct Feedback {
     swinging_axes: [Vector3<f64>; 2],
     /// Of the divergent component, over some time [m].
     error: Vector2<f64>,
+    /// Shift of the ZMP that an uneven sole takes away and the ankle gives back [m].
+    unevenness: Vector2<f64>,
     /// Angles and rates of the offsets, in support coordinates.
     offsets: Motion,
     /// What the bearing ankle is asked for now.
@@ -58,38 +74,33 @@ impl Feedback {
             axes: ANKLES[0].map(|joint| mechanism.links[joint].axis.into_inner()),
             swinging_axes: ANKLES[1].map(|joint| mechanism.links[joint].axis.into_inner()),
             error: Vector2::zeros(),
+            unevenness: Vector2::zeros(),
             offsets: Motion::default(),
             lean: Vector2::zeros(),
             parameters,
         }
     }
 
-    /// Absorbs where the centre of mass is against where it should be, and moves the offsets on.
+    /// Absorbs how the robot balances against how it should, and moves the offsets on.
     ///
-    /// * `zmp_planned` – where the ground should push if all went as planned [m]
-    /// * `tilt` – how the robot is turned beyond the plan, about x and y [rad]; counts only with `sensed`
+    /// * `sensed` – `None` if nothing good is known
     /// * `on_both_feet` – whether the other foot bears, too, so that the point may leave the bearing sole
     /// * `dt` – time since the last update [s]
-    pub fn update(
-        &mut self,
-        planned: &CentreOfMass,
-        sensed: Option<&CentreOfMass>,
-        tilt: Vector2<f64>,
-        zmp_planned: Vector2<f64>,
-        on_both_feet: bool,
-        dt: f64,
-    ) {
+    pub fn update(&mut self, planned: &Balance, sensed: Option<&Balance>, on_both_feet: bool, dt: f64) {
+        let zmp_planned = planned.zmp.unwrap_or_default();
         let mut level = Vector3::zeros();
         let mut stepped_after = Vector2::zeros();
         if let Some(sensed) = sensed {
-            let error = sensed.divergent_component() - planned.divergent_component();
+            let error = sensed.centre_of_mass.divergent_component() - planned.centre_of_mass.divergent_component();
             let shift = if on_both_feet {
                 (error * self.parameters.gain).map(|shift| shift.clamp(-SHIFT_ON_BOTH_FEET, SHIFT_ON_BOTH_FEET))
             } else {
-                level = -Vector3::new(tilt.x, tilt.y, 0.0);
+                level = -Vector3::new(sensed.tilt.x, sensed.tilt.y, 0.0);
                 stepped_after = error.cap_magnitude(ERROR_MAX);
                 self.zmp_shift(error, zmp_planned)
             };
+            self.even_out(sensed.zmp.map(|zmp| zmp_planned + shift - zmp), dt);
+            let shift = shift + self.unevenness;
             // To push the ground further ahead (+x) the body leans back (−y); further left (+y) it leans right (+x).
             self.lean = Vector2::new(shift.y, -shift.x) * self.lean_per_shift;
         }
@@ -104,10 +115,19 @@ impl Feedback {
         }
     }
 
+    /// A sole on uneven ground tilts the ankle, whose drive then pushes elsewhere: what the ZMP misses is taken out by and by
+    /// (foot damping control, Kajita et al. 2010).
+    fn even_out(&mut self, missed: Option<Vector2<f64>>, dt: f64) {
+        let Some(missed) = missed else { return };
+        let evened = self.unevenness + missed * (dt / self.parameters.zmp_lag);
+        self.unevenness = evened.map(|shift| shift.clamp(-UNEVENNESS_MAX, UNEVENNESS_MAX));
+    }
+
     /// The other foot bears: what was the bearing ankle's is now the swinging one's.
     pub fn swap(&mut self, mirror: &Mirror) {
         self.offsets = self.offsets.mirrored(mirror);
         self.lean = Vector2::zeros();
+        self.unevenness = Vector2::zeros();
         self.error.y = -self.error.y;
     }
 
@@ -170,13 +190,21 @@ mod tests {
 
     fn feedback() -> Feedback {
         let mechanism = Mechanism::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism.toml")).unwrap();
-        let parameters = FeedbackParameters { gain: 3.0, ankle_stiffness: 5000.0, edge: 0.005, lag: 0.01, fade: 0.05 };
+        let parameters = FeedbackParameters {
+            gain: 3.0,
+            ankle_stiffness: 5000.0,
+            edge: 0.005,
+            zmp_lag: 0.03,
+            lag: 0.01,
+            fade: 0.05,
+        };
         Feedback::new(&mechanism, parameters)
     }
 
     /// A resting centre of mass at `x`, `y`, 0.9 m high.
-    fn at(x: f64, y: f64) -> CentreOfMass {
-        CentreOfMass { position: Vector3::new(x, y, 0.9), velocity: Vector3::zeros() }
+    fn at(x: f64, y: f64) -> Balance {
+        let centre_of_mass = CentreOfMass { position: Vector3::new(x, y, 0.9), velocity: Vector3::zeros() };
+        Balance { centre_of_mass, tilt: Vector2::zeros(), zmp: None }
     }
 
     /// The oracle: ξ̇ = ω(ξ − p) of both the plan and the robot, integrated, with the ZMP at the edge of the sole.
@@ -184,9 +212,9 @@ mod tests {
     fn the_excess_is_what_a_pendulum_does() {
         let mut feedback = feedback();
         for _ in 0..1000 {
-            feedback.update(&at(0.0, 0.0), Some(&at(-0.09, 0.05)), Vector2::zeros(), Vector2::zeros(), false, 1e-3);
+            feedback.update(&at(0.0, 0.0), Some(&at(-0.09, 0.05)), false, 1e-3);
         }
-        let omega = at(0.0, 0.0).pendulum_rate();
+        let omega = at(0.0, 0.0).centre_of_mass.pendulum_rate();
         // The heel is 7 cm behind, the edge 4 cm aside.
         let zmp_shift = Vector2::new(-0.065, 0.035);
         let mut error = Vector2::new(-0.09, 0.05);
@@ -202,7 +230,7 @@ mod tests {
     fn what_the_ankle_can_do_needs_no_step() {
         let mut feedback = feedback();
         for _ in 0..1000 {
-            feedback.update(&at(0.0, 0.0), Some(&at(0.15, -0.03)), Vector2::zeros(), Vector2::zeros(), false, 1e-3);
+            feedback.update(&at(0.0, 0.0), Some(&at(0.15, -0.03)), false, 1e-3);
         }
         assert_eq!(feedback.excess(3.0), Vector2::zeros());
     }
@@ -212,14 +240,8 @@ mod tests {
     fn the_swinging_sole_stays_level() {
         let mut feedback = feedback();
         for _ in 0..1000 {
-            feedback.update(
-                &at(0.0, 0.0),
-                Some(&at(0.0, 0.0)),
-                Vector2::new(0.02, 0.03),
-                Vector2::zeros(),
-                false,
-                1e-3,
-            );
+            let tilted = Balance { tilt: Vector2::new(0.02, 0.03), ..at(0.0, 0.0) };
+            feedback.update(&at(0.0, 0.0), Some(&tilted), false, 1e-3);
         }
         let mechanism = Mechanism::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism.toml")).unwrap();
         let tree = dynamics::Tree::new(&mechanism);
@@ -228,5 +250,22 @@ mod tests {
         let sole = dynamics::Kinematics::standing(&tree, &angles).sole_to_world(&mechanism, model::Side::Left);
         let up = sole.rotation * Vector3::z();
         assert!(up.xy().norm() < 1e-3, "{up}");
+    }
+
+    /// The oracle: an ankle drive as stiff as the feedback believes on a sole that a step under its edge tilts. The ground
+    /// pushes where it is wanted again, however far the tilt took the point.
+    #[test]
+    fn what_an_uneven_sole_takes_the_ankle_gives_back() {
+        let mut feedback = feedback();
+        let taken = Vector2::new(0.2, -0.1);
+        let mut zmp = taken;
+        for _ in 0..300 {
+            feedback.update(&at(0.0, 0.0), Some(&Balance { zmp: Some(zmp), ..at(0.0, 0.0) }), false, 1e-3);
+            let offsets = feedback.offsets().angles;
+            let lean = Vector2::new(offsets[Joint::RightAnkleRoll], offsets[Joint::RightAnklePitch]);
+            let lean = Vector2::new(feedback.axes[0].x * lean.x, feedback.axes[1].y * lean.y);
+            zmp = taken + Vector2::new(-lean.y, lean.x) / feedback.lean_per_shift;
+        }
+        assert!(zmp.norm() < 1e-3, "{zmp}");
     }
 }

@@ -5,6 +5,7 @@
 
 mod feedback;
 mod half_step_zmp;
+mod landing;
 mod lean_table;
 mod paper_lean;
 mod parameters;
@@ -14,11 +15,12 @@ mod sensed;
 mod state;
 mod zmp_estimator;
 
-pub use feedback::{AnkleLean, Feedback};
+pub use feedback::{AnkleLean, Balance, Feedback};
 pub use half_step_zmp::{GroundSplit, ZmpExtents, zmp_by_newton_euler, zmp_by_speed_law};
+pub use landing::Landing;
 pub use lean_table::{LeanTable, LeanTableError};
 pub use paper_lean::{LeanAt, PaperLean};
-pub use parameters::{FeedbackParameters, Parameters, ZmpParameters};
+pub use parameters::{FeedbackParameters, LandingParameters, Parameters, ZmpParameters};
 pub use plan::Plan;
 pub use preview::Preview;
 pub use sensed::Sensed;

@@ -7,6 +7,8 @@ pub struct Parameters {
     pub zmp: ZmpParameters,
     /// The ankle feedback's.
     pub feedback: FeedbackParameters,
+    /// The legs' at touchdown.
+    pub landing: LandingParameters,
 }
 
 /// See [`crate::ZmpEstimator`].
@@ -18,6 +20,15 @@ pub struct ZmpParameters {
     pub time_constant: f64,
 }
 
+/// See [`crate::Landing`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LandingParameters {
+    /// Unexpected force over the speed with which the leg yields to it [N·s/m].
+    pub damping: f64,
+    /// Time constant with which the foot comes back to its planned height [s].
+    pub return_time: f64,
+}
+
 /// See [`crate::Feedback`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FeedbackParameters {
@@ -27,6 +38,8 @@ pub struct FeedbackParameters {
     pub ankle_stiffness: f64,
     /// The wanted ZMP keeps this far off the sole's edge [m].
     pub edge: f64,
+    /// Time constant with which the ankle takes out what the measured ZMP misses [s].
+    pub zmp_lag: f64,
     /// Time constant with which the bearing ankle follows [s].
     pub lag: f64,
     /// Time constant with which the swinging ankle comes back level [s].

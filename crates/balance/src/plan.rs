@@ -4,8 +4,8 @@ use dynamics::{NewtonEuler, SupportPolygon, Tree, zmp};
 use model::{Joint, JointVector, Mechanism, Mirror, Motion, Side};
 use nalgebra::{Vector2, Vector3};
 
-use crate::CentreOfMass;
 use crate::sensed::TRUNK;
+use crate::{Balance, CentreOfMass};
 
 /// What a motion needs of drives and ground if the bearing sole stays flat.
 #[derive(Clone, Debug)]
@@ -56,6 +56,11 @@ impl Plan {
         let up = self.inverse.kinematics.rotation[TRUNK] * up_in_trunk;
         let up = up.xy() + self.vertical - vertical;
         Vector2::new(up.y, -up.x)
+    }
+
+    /// How the robot balances if all goes as planned.
+    pub fn balance(&self) -> Balance {
+        Balance { centre_of_mass: self.centre_of_mass, tilt: Vector2::zeros(), zmp: Some(self.zmp) }
     }
 
     /// Where every link is.

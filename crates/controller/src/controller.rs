@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use balance::preview::{Forecaster, Gate, Stance};
-use balance::{CentreOfMass, Feedback, Ground, Plan, Preview, Sensed, ZmpEstimator};
+use balance::{Balance, CentreOfMass, Feedback, Ground, Landing, Plan, Preview, Sensed, ZmpEstimator};
 use dynamics::{Kinematics, Tree};
 use gait::{NominalTable, Start, Walk, WalkError};
 use model::{Mechanism, Motion, Side};
@@ -18,6 +18,10 @@ use crate::{
 
 /// With the measured ZMP so far inside a sole, all of it is on the ground [m].
 const FLAT_MARGIN: f64 = 0.005;
+/// How long before and after a swap the weight may go from foot to foot [s].
+const SWAP: f64 = 0.03;
+/// A walk that is slower counts as this fast [-].
+const SPEED_MIN: f64 = 0.1;
 
 /// The state of the controller. Everything is made in [`Controller::new`]; a tick allocates nothing.
 #[derive(Clone, Debug)]
@@ -33,6 +37,7 @@ pub struct Controller {
     ground: Ground,
     plan: Plan,
     feedback: Feedback,
+    landing: Landing,
     /// How the robot is turned beyond the plan, about x and y of support coordinates, when last sensed [rad].
     tilt: Vector2<f64>,
     pub(crate) guard: Guard,
@@ -102,6 +107,7 @@ impl Controller {
             zmp_estimator: ZmpEstimator::new(mechanism, parameters.balance.zmp),
             ground: Ground { zmp: None, margin: f64::NEG_INFINITY, loads: [0.0; 2], bears: [false; 2] },
             feedback: Feedback::new(mechanism, parameters.balance.feedback),
+            landing: Landing::new(mechanism, parameters.balance.landing),
             tilt: Vector2::zeros(),
             guard: Guard::new(mechanism, &first),
             desk: Desk::Free(Box::new(Inquiry::new(forecaster, &rest))),
@@ -141,8 +147,13 @@ impl Controller {
         }
         let known = centre_of_mass.filter(|_| is_planned);
         let on_both_feet = self.pattern.weight_on_bearing() < 1.0;
-        self.feedback.update(&self.plan.centre_of_mass, known.as_ref(), self.tilt, self.plan.zmp, on_both_feet, dt);
+        let zmp = self.ground.zmp.filter(|_| self.ground.bears == [true, false] && !self.is_at_swap());
+        let sensed = known.map(|centre_of_mass| Balance { centre_of_mass, tilt: self.tilt, zmp });
+        self.feedback.update(&self.plan.balance(), sensed.as_ref(), on_both_feet, dt);
 
+        let bearing = self.pattern.weight_on_bearing();
+        let loads = known.filter(|_| !self.is_at_swap()).map(|_| self.ground.loads);
+        self.landing.update(loads, [bearing, 1.0 - bearing], dt);
         self.pattern.sense_tilt(if known.is_some() && !on_both_feet { self.tilt } else { Vector2::zeros() });
         if known.is_some() {
             self.pattern.catch(|growth| self.feedback.excess(growth));
@@ -204,6 +215,13 @@ impl Controller {
     /// Whether the newest good measurement is of now and tells of a robot on its feet.
     pub(crate) fn is_well(&self) -> bool {
         self.watch.is_upright() && !self.watch.is_stale()
+    }
+
+    /// Whether the weight goes from foot to foot just now, as it should.
+    fn is_at_swap(&self) -> bool {
+        let period = self.pattern.duration() / self.pattern.speed().max(SPEED_MIN);
+        let progress = self.pattern.half_step().progress;
+        progress.min(1.0 - progress) * period < SWAP
     }
 
     /// Whether half-steps are intended.
@@ -283,7 +301,8 @@ impl Controller {
         };
         let on_both_feet = self.pattern.weight_on_bearing() < 1.0;
         self.plan.update(&self.tree, self.pattern.mirror(), &motion, on_both_feet);
-        motion + *self.feedback.offsets()
+        self.landing.advance(&self.tree, self.plan.kinematics(), &motion.angles, dt);
+        motion + *self.feedback.offsets() + *self.landing.offsets()
     }
 
     /// A motion of physical joints as seen from the bearing foot.
@@ -297,6 +316,7 @@ impl Controller {
     /// A new half-step has begun, told from the other foot.
     fn swap(&mut self) {
         self.feedback.swap(self.pattern.mirror());
+        self.landing.swap(self.pattern.mirror());
         self.zmp_estimator.swap();
         if !self.is_on_its_way() && !self.pattern.can_stand() {
             let pendulum_rate = self.plan.centre_of_mass.pendulum_rate();
@@ -326,7 +346,7 @@ impl Controller {
             Pattern::Preview(preview) => (preview.walk(), preview.half_step()),
         };
         let is_known = self.is_planned() && walk.half_step().index == now.index;
-        let planned = asked.angles - self.feedback.offsets().angles;
+        let planned = asked.angles - self.feedback.offsets().angles - self.landing.offsets().angles;
         is_known.then(|| AddedAngles::between(&self.mechanism, &walk.motion_at(now.progress).angles, &planned))
     }
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use balance::preview::ForecastParameters;
-use balance::{FeedbackParameters, ZmpParameters};
+use balance::{FeedbackParameters, LandingParameters, ZmpParameters};
 use gait::{GaitParameters, Limits, RampKind};
 use model::config::{self, ConfigErrors, Document, Table};
 
@@ -61,7 +61,11 @@ impl Parameters {
                 .table("gait")
                 .choice("compensation", [("none", Compensation::None), ("preview", Compensation::Preview)])
                 .unwrap_or(Compensation::None),
-            balance: balance::Parameters { zmp: zmp(&root.table("zmp")), feedback: feedback(&root.table("feedback")) },
+            balance: balance::Parameters {
+                zmp: zmp(&root.table("zmp")),
+                feedback: feedback(&root.table("feedback")),
+                landing: landing(&root.table("landing")),
+            },
             forecast: forecast(&root.table("forecast")),
             watch: watch(&root.table("watch")),
             sources: sources(&root.table("sources")),
@@ -97,8 +101,16 @@ fn feedback(table: &Table) -> FeedbackParameters {
         gain: table.number("gain").between(0.0, 20.0),
         ankle_stiffness: table.number("ankle_stiffness_n_m_per_rad").positive(),
         edge: table.number("edge_m").not_negative(),
+        zmp_lag: table.number("zmp_lag_s").positive(),
         lag: table.number("lag_s").positive(),
         fade: table.number("fade_s").positive(),
+    }
+}
+
+fn landing(table: &Table) -> LandingParameters {
+    LandingParameters {
+        damping: table.number("damping_n_s_per_m").positive(),
+        return_time: table.number("return_time_s").positive(),
     }
 }
 

@@ -86,6 +86,14 @@ impl Pattern {
         }
     }
 
+    /// Of a nominal half-step [s].
+    pub fn duration(&self) -> f64 {
+        match self {
+            Pattern::Plain(walk) => walk.table().duration,
+            Pattern::Preview(preview) => preview.walk().table().duration,
+        }
+    }
+
     /// The speed factor of now.
     pub fn speed(&self) -> f64 {
         match self {

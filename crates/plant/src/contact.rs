@@ -9,7 +9,7 @@
 
 use dynamics::LinkLoad;
 use model::{Joint, Mechanism, Side, Sole, Wrench};
-use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector2, Vector3, Vector6};
 
 use crate::ContactParameters;
 
@@ -69,12 +69,14 @@ impl FootContact {
 
     /// What the ground does to the foot over the coming step.
     ///
-    /// * `base_height` – of the right sole's origin over the ground [m]
+    /// * `base` – the right sole's origin in the world [m]
+    /// * `floor` – its height at a place in the world [m]
     /// * `step` – [s]
     pub fn press(
         &mut self,
         foot: &FootMotion,
-        base_height: f64,
+        base: &Vector3<f64>,
+        floor: impl Fn(Vector2<f64>) -> f64,
         parameters: &ContactParameters,
         step: f64,
     ) -> &LinkLoad {
@@ -85,7 +87,8 @@ impl FootContact {
         for corner in &mut self.corners {
             let arm = foot.origin + foot.rotation * corner.in_link;
             let velocity = linear + angular.cross(&arm);
-            let depth = -(base_height + arm.z);
+            let place = base + arm;
+            let depth = floor(place.xy()) - place.z;
             let normal = parameters.stiffness * (depth - step * velocity.z) - parameters.damping * velocity.z;
             if depth <= 0.0 || normal <= 0.0 {
                 corner.bristle = Vector3::zeros();

@@ -20,6 +20,7 @@ mod sensors;
 mod slope;
 mod step;
 mod truth;
+mod unevenness;
 
 pub use contact::{FootContact, FootMotion, GroundContact};
 pub use disturbances::Disturbances;
@@ -35,3 +36,4 @@ pub use sensors::{Measurement, Sensors};
 pub use slope::Slope;
 pub use step::{Plant, Setpoint};
 pub use truth::Truth;
+pub use unevenness::Unevenness;

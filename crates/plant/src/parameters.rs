@@ -5,7 +5,7 @@ use std::path::Path;
 use model::config::{self, ConfigErrors, Document, Table};
 use model::{Joint, PerJoint};
 
-use crate::{Payload, Slope};
+use crate::{Payload, Slope, Unevenness};
 
 /// Steepest floor [deg]: far beyond what anyone stands on.
 const SLOPE_MAX_DEG: f64 = 40.0;
@@ -19,6 +19,8 @@ pub struct Parameters {
     pub mass_error: f64,
     /// How the floor rises.
     pub slope: Slope,
+    /// How uneven it is.
+    pub unevenness: Unevenness,
     /// What the robot carries.
     pub payload: Payload,
     /// The ground under the soles.
@@ -52,6 +54,7 @@ impl Parameters {
             steps_per_period: root.integer("steps_per_period", 1, 100) as u32,
             mass_error: root.number("mass_error").between(0.0, 0.5),
             slope: slope(&root.table("slope")),
+            unevenness: unevenness(&root.table("unevenness")),
             payload: payload(&root.table("payload")),
             contact: contact(&root.table("contact")),
             servo: PerJoint::from_fn(|joint| if joint >= Joint::RightShoulder { arms } else { legs_and_waist }),
@@ -66,6 +69,10 @@ fn slope(table: &Table) -> Slope {
         ahead: table.angle("ahead_deg").between(-SLOPE_MAX_DEG, SLOPE_MAX_DEG),
         left: table.angle("left_deg").between(-SLOPE_MAX_DEG, SLOPE_MAX_DEG),
     }
+}
+
+fn unevenness(table: &Table) -> Unevenness {
+    Unevenness { height: table.number("height_m").not_negative(), tile: table.number("tile_m").positive() }
 }
 
 fn payload(table: &Table) -> Payload {
@@ -191,6 +198,7 @@ impl Default for Parameters {
             steps_per_period: 4,
             mass_error: 0.0,
             slope: Slope::default(),
+            unevenness: Unevenness::default(),
             payload: Payload::default(),
             contact: ContactParameters::default(),
             servo: PerJoint::from_fn(|joint| if joint >= Joint::RightShoulder { arms } else { legs_and_waist }),

@@ -31,6 +31,8 @@ pub struct Plant {
     period: f64,
     /// Control periods since the start.
     pub(crate) periods: u64,
+    /// Decides what is drawn by lot.
+    seed: u64,
     /// The robot itself.
     pub robot: RobotState,
     /// What happens to it. More may be added at any time.
@@ -71,6 +73,7 @@ impl Plant {
             parameters: parameters.clone(),
             period,
             periods: 0,
+            seed,
             tree,
         };
         plant.body.gravity = parameters.slope.gravity();
@@ -118,12 +121,13 @@ impl Plant {
         );
 
         // What the ground, the payload, pushes and the drives do.
-        let height = robot.sole_to_world.translation.z;
+        let base = robot.sole_to_world.translation.vector;
+        let floor = |place| self.parameters.unevenness.at(place, self.seed);
         let mut loads = Loads::default();
         for side in Side::BOTH {
             let motion = foot_motion(&self.body, side);
             let foot = &mut self.contact.feet[side.index()];
-            loads.add(*foot.press(&motion, height, &self.parameters.contact, step));
+            loads.add(*foot.press(&motion, &base, floor, &self.parameters.contact, step));
         }
         if self.parameters.payload.mass > 0.0 {
             loads.add(self.parameters.payload.load(&self.body));

@@ -1,0 +1,64 @@
+//! A floor that is not even: square tiles, each at its own height.
+
+use nalgebra::Vector2;
+
+/// How uneven the floor is. Around the world's origin, where the walk begins, it is even.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unevenness {
+    /// Tiles lie by at most this much higher or lower than the plane z = 0 [m].
+    pub height: f64,
+    /// Edge of a tile [m].
+    pub tile: f64,
+}
+
+/// Half the edge of the square that is even [m].
+const EVEN: f64 = 0.5;
+
+impl Default for Unevenness {
+    fn default() -> Self {
+        Self { height: 0.0, tile: 0.3 }
+    }
+}
+
+impl Unevenness {
+    /// Height of the floor at a place [m]; every seed has its own tiles.
+    pub fn at(&self, place: Vector2<f64>, seed: u64) -> f64 {
+        if self.height == 0.0 || place.amax() < EVEN {
+            return 0.0;
+        }
+        let [column, row] = [place.x, place.y].map(|coordinate| (coordinate / self.tile).floor() as i64 as u64);
+        let mixed = scramble(scramble(scramble(seed) ^ column) ^ row);
+        let share = (mixed >> 11) as f64 / (1u64 << 53) as f64;
+        self.height * (2.0 * share - 1.0)
+    }
+}
+
+/// The finaliser of SplitMix64 (Steele, Lea and Flood 2014): every bit of the input changes every bit of the output.
+fn scramble(value: u64) -> u64 {
+    let value = value.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let value = (value ^ (value >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let value = (value ^ (value >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    value ^ (value >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_lie_within_their_bound_on_both_sides_of_the_plane_and_are_level() {
+        let floor = Unevenness { height: 0.01, tile: 0.2 };
+        let middles =
+            (0..4000).map(|index| Vector2::new(1.1 + 0.2 * f64::from(index % 80), 0.2 * f64::from(index / 80)));
+        let heights: Vec<f64> = middles.clone().map(|place| floor.at(place, 3)).collect();
+        let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+        let spread = heights.iter().map(|height| height * height).sum::<f64>() / heights.len() as f64;
+        assert!(heights.iter().all(|height| height.abs() <= 0.01));
+        assert!(mean.abs() < 3e-4, "mean {mean}");
+        assert!((spread - 1e-4 / 3.0).abs() < 2e-6, "an even spread has a third of the bound's square: {spread}");
+        for (place, height) in middles.zip(heights) {
+            assert_eq!(floor.at(place + Vector2::new(0.05, 0.05), 3), height, "one tile, one height");
+        }
+        assert_eq!(floor.at(Vector2::new(0.3, -0.4), 3), 0.0, "where the walk begins");
+    }
+}
