@@ -58,7 +58,8 @@ impl Plant {
         let mut outside = match self.engine {
             Engine::Rust => None,
             Engine::Mujoco => {
-                let setup = Setup::new(&robot.mechanism, &parameters, &disturbances, &start, self.seed);
+                let setup = Setup::new(&robot.mechanism, &parameters, &disturbances, &start, self.seed)
+                    .map_err(Failure::new)?;
                 Some(OutsideEngine::start(engine::mujoco()?, &setup).map_err(Failure::new)?)
             }
         };
