@@ -8,7 +8,9 @@ use std::path::Path;
 
 use balance::{GroundSplit, LeanAt, PaperLean, zmp_by_speed_law};
 use criterion::{Criterion, criterion_group, criterion_main};
-use dynamics::{ArticulatedBody, Kinematics, Leg, LegSolver, NewtonEuler, Tree, mass_matrix, solve_leg, zmp};
+use dynamics::{
+    ArticulatedBody, Batch, Kinematics, LANES, Leg, LegSolver, NewtonEuler, Tree, mass_matrix, solve_leg, zmp,
+};
 use gait::{NominalRow, NominalTable, at_speed};
 use model::{JointVector, Mechanism, Motion, PerJoint, Side};
 use nalgebra::{Isometry3, Vector3};
@@ -40,6 +42,16 @@ fn dynamics(criterion: &mut Criterion) {
         bencher.iter(|| {
             inverse.stand(&tree, black_box(&motion));
             zmp(&inverse.ground)
+        });
+    });
+    group.bench_function("zmp_of_eight_at_once", |bencher| {
+        let mut batch = Batch::default();
+        bencher.iter(|| {
+            for lane in 0..LANES {
+                batch.set(lane, black_box(&motion));
+            }
+            batch.compute(&tree);
+            std::array::from_fn::<_, LANES, _>(|lane| zmp(&batch.ground(lane)))
         });
     });
     group.bench_function("kinematics_and_com", |bencher| {

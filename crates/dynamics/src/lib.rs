@@ -8,9 +8,11 @@
 
 mod articulated_body;
 mod atan2;
+mod batch;
 mod energy;
 mod inverse_kinematics;
 mod kinematics;
+mod lanes;
 mod leg_geometry;
 mod leg_solver;
 mod mass_matrix;
@@ -24,9 +26,11 @@ mod zmp;
 
 pub use articulated_body::{Accelerations, ArticulatedBody, LinkLoad};
 pub use atan2::atan2;
+pub use batch::Batch;
 pub use energy::{kinetic_energy, potential_energy};
 pub use inverse_kinematics::{Leg, Unreachable, solve_leg};
 pub use kinematics::Kinematics;
+pub use lanes::LANES;
 pub use leg_solver::LegSolver;
 pub use mass_matrix::{MassMatrix, mass_matrix};
 pub use newton_euler::{BaseMotion, NewtonEuler};

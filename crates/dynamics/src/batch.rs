@@ -1,0 +1,251 @@
+//! Many motions at once: the ground wrench, and with it the zero-moment point, of eight motions in the lanes of vector
+//! registers. For candidates that are compared and previews that are played ahead.
+//!
+//! The recursion is that of [`NewtonEuler`](crate::NewtonEuler), without torques. The arithmetic is the same on every
+//! processor, so the bits are, too; only the width of the registers is chosen at run time.
+
+use model::{GRAVITY, Joint, Motion, PerJoint, Wrench};
+use nalgebra::Vector3;
+
+use crate::Tree;
+use crate::lanes::{LANES, Lanes, Vectors};
+use crate::sin_cos::sin_cos;
+use crate::tree::Turn;
+
+/// How a link is placed and moves, told at its origin in world axes.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    /// Columns of the rotation to world axes.
+    columns: [Vectors; 3],
+    origin: Vectors,
+    rate: Vectors,
+    angular_acceleration: Vectors,
+    /// Of the origin, less gravity.
+    acceleration: Vectors,
+}
+
+/// Eight motions, joint by joint, and what their links do.
+#[derive(Clone, Debug)]
+pub struct Batch {
+    angles: PerJoint<Lanes>,
+    rates: PerJoint<Lanes>,
+    accelerations: PerJoint<Lanes>,
+    links: PerJoint<Link>,
+    force: Vectors,
+    moment: Vectors,
+}
+
+impl Default for Batch {
+    fn default() -> Self {
+        let zero = PerJoint([Lanes::ZERO; Joint::COUNT]);
+        Self {
+            angles: zero,
+            rates: zero,
+            accelerations: zero,
+            links: PerJoint([Link::GROUND; Joint::COUNT]),
+            force: Vectors::ZERO,
+            moment: Vectors::ZERO,
+        }
+    }
+}
+
+impl Batch {
+    /// Puts a motion, told in support coordinates, into a lane below [`LANES`].
+    #[inline]
+    pub fn set(&mut self, lane: usize, motion: &Motion) {
+        for index in 0..Joint::COUNT {
+            self.angles.0[index].0[lane] = motion.angles.0[index];
+            self.rates.0[index].0[lane] = motion.rates.0[index];
+            self.accelerations.0[index].0[lane] = motion.accelerations.0[index];
+        }
+    }
+
+    /// Computes what all motions need of the ground with the right sole held at O.
+    pub fn compute(&mut self, tree: &Tree) {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if std::arch::is_x86_feature_detected!("avx512f") {
+                // SAFETY: the processor was asked.
+                return unsafe { self.compute_with_avx512(tree) };
+            }
+            if std::arch::is_x86_feature_detected!("avx2") {
+                // SAFETY: the processor was asked.
+                return unsafe { self.compute_with_avx2(tree) };
+            }
+        }
+        self.compute_portably(tree);
+    }
+
+    /// The ground's wrench about O on the motion in a lane, in support axes.
+    pub fn ground(&self, lane: usize) -> Wrench {
+        Wrench { force: self.force.lane(lane), moment: self.moment.lane(lane) }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f")]
+    fn compute_with_avx512(&mut self, tree: &Tree) {
+        self.compute_portably(tree);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn compute_with_avx2(&mut self, tree: &Tree) {
+        self.compute_portably(tree);
+    }
+
+    #[inline(always)]
+    fn compute_portably(&mut self, tree: &Tree) {
+        let (mut force, mut moment) = (Vectors::ZERO, Vectors::ZERO);
+        for joint in Joint::ALL {
+            let node = &tree.nodes[joint];
+            let (placed, rest) = self.links.0.split_at_mut(joint.index());
+            let parent = node.parent.map_or(&Link::GROUND, |parent| &placed[parent.index()]);
+            let link = &mut rest[0];
+
+            let axis = link.turn_from(parent, node.turn, self.angles[joint]);
+            let spin = axis * self.rates[joint];
+            link.rate = parent.rate + spin;
+            link.angular_acceleration =
+                parent.angular_acceleration + axis * self.accelerations[joint] + parent.rate.cross(&spin);
+            (link.origin, link.acceleration) = (parent.origin, parent.acceleration);
+            if let Some(origin) = node.origin {
+                let arm = parent.across(&origin);
+                link.origin = link.origin + arm;
+                link.acceleration = link.acceleration + parent.swept(&arm);
+            }
+            if let Some(body) = &node.body {
+                let arm = link.across(&body.com);
+                let push = (link.acceleration + link.swept(&arm)).times(body.mass);
+                force = force + push;
+                moment = moment + (link.origin + arm).cross(&push) + link.spun(&body.inertia);
+            }
+        }
+        (self.force, self.moment) = (force, moment);
+    }
+}
+
+impl Link {
+    const GROUND: Link = Link {
+        columns: [
+            Vectors { x: Lanes([1.0; LANES]), ..Vectors::ZERO },
+            Vectors { y: Lanes([1.0; LANES]), ..Vectors::ZERO },
+            Vectors { z: Lanes([1.0; LANES]), ..Vectors::ZERO },
+        ],
+        origin: Vectors::ZERO,
+        rate: Vectors::ZERO,
+        angular_acceleration: Vectors::ZERO,
+        acceleration: Vectors { z: Lanes([GRAVITY; LANES]), ..Vectors::ZERO },
+    };
+
+    /// Takes its rotation from its parent's and gives the joint's axis.
+    #[inline(always)]
+    fn turn_from(&mut self, parent: &Link, turn: Turn, angle: Lanes) -> Vectors {
+        let [x, y, z] = parent.columns;
+        let (mut sine, mut cosine) = (Lanes::ZERO, Lanes::ZERO);
+        for lane in 0..LANES {
+            (sine.0[lane], cosine.0[lane]) = sin_cos(angle.0[lane]);
+        }
+        let axis;
+        (self.columns, axis) = match turn {
+            Turn::X => ([x, y * cosine + z * sine, z * cosine - y * sine], x),
+            Turn::Y => ([x * cosine - z * sine, y, x * sine + z * cosine], y),
+            Turn::Z => ([x * cosine + y * sine, y * cosine - x * sine, z], z),
+            Turn::About(axis) => {
+                let along = parent.across(&axis);
+                (
+                    [
+                        x.about(&along, axis.x, sine, cosine),
+                        y.about(&along, axis.y, sine, cosine),
+                        z.about(&along, axis.z, sine, cosine),
+                    ],
+                    along,
+                )
+            }
+        };
+        axis
+    }
+
+    /// A vector of link coordinates in world axes. Most have one or two components that are not zero.
+    #[inline(always)]
+    fn across(&self, vector: &Vector3<f64>) -> Vectors {
+        let mut sum = Vectors::ZERO;
+        for (column, component) in self.columns.iter().zip(vector.iter()) {
+            if *component != 0.0 {
+                sum = sum + column.times(*component);
+            }
+        }
+        sum
+    }
+
+    /// Acceleration of a point at `arm` over that of the origin.
+    #[inline(always)]
+    fn swept(&self, arm: &Vectors) -> Vectors {
+        self.angular_acceleration.cross(arm) + self.rate.cross(&self.rate.cross(arm))
+    }
+
+    /// Rate of change of the angular momentum about the centre of mass, from principal moments of inertia.
+    #[inline(always)]
+    fn spun(&self, inertia: &Vector3<f64>) -> Vectors {
+        let [x, y, z] = &self.columns;
+        let rate = [x.dot(&self.rate), y.dot(&self.rate), z.dot(&self.rate)];
+        let turning = &self.angular_acceleration;
+        *x * (x.dot(turning).times(inertia.x) + rate[1] * rate[2].times(inertia.z - inertia.y))
+            + *y * (y.dot(turning).times(inertia.y) + rate[2] * rate[0].times(inertia.x - inertia.z))
+            + *z * (z.dot(turning).times(inertia.z) + rate[0] * rate[1].times(inertia.y - inertia.x))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use model::{JointVector, Mechanism};
+
+    use super::*;
+    use crate::NewtonEuler;
+
+    fn motion(seed: f64) -> Motion {
+        let spread = |size: f64, phase: f64| -> JointVector {
+            PerJoint::from_fn(|joint| size * (f64::from(joint.number()) * 0.7 + seed * 1.3 + phase).sin())
+        };
+        Motion { angles: spread(0.6, 0.0), rates: spread(2.0, 1.0), accelerations: spread(10.0, 2.0) }
+    }
+
+    fn mechanisms() -> [Mechanism; 2] {
+        ["mechanism.toml", "mechanism_other_reading.toml"].map(|name| {
+            Mechanism::load(format!("{}/../../config/{name}", env!("CARGO_MANIFEST_DIR"))).expect("it loads")
+        })
+    }
+
+    /// The scalar recursion is the oracle.
+    #[test]
+    fn every_lane_is_what_newton_and_euler_say() {
+        for mechanism in mechanisms() {
+            let tree = Tree::new(&mechanism);
+            let mut batch = Batch::default();
+            for lane in 0..LANES {
+                batch.set(lane, &motion(lane as f64));
+            }
+            batch.compute(&tree);
+            for lane in 0..LANES {
+                let scalar = NewtonEuler::default().ground_wrench(&tree, &motion(lane as f64));
+                let off = batch.ground(lane) - scalar;
+                assert!(off.force.amax() < 1e-10 && off.moment.amax() < 1e-10, "lane {lane}: {off:?}");
+            }
+        }
+    }
+
+    /// Narrow and wide registers compute the same bits.
+    #[test]
+    fn the_bits_do_not_depend_on_the_processor() {
+        let tree = Tree::new(&mechanisms()[0]);
+        let mut wide = Batch::default();
+        for lane in 0..LANES {
+            wide.set(lane, &motion(lane as f64));
+        }
+        let mut narrow = wide.clone();
+        wide.compute(&tree);
+        narrow.compute_portably(&tree);
+        for lane in 0..LANES {
+            assert_eq!(wide.ground(lane), narrow.ground(lane));
+        }
+    }
+}
