@@ -118,7 +118,8 @@ impl Feedback {
     /// A sole on uneven ground tilts the ankle, whose drive then pushes elsewhere: what the ZMP misses is taken out by and by
     /// (foot damping control, Kajita et al. 2010).
     fn even_out(&mut self, missed: Option<Vector2<f64>>, dt: f64) {
-        let Some(missed) = missed else { return };
+        // To hold the ZMP alone is to let the centre of mass run away from it.
+        let Some(missed) = missed.filter(|_| self.parameters.gain > 0.0) else { return };
         let evened = self.unevenness + missed * (dt / self.parameters.zmp_lag);
         self.unevenness = evened.map(|shift| shift.clamp(-UNEVENNESS_MAX, UNEVENNESS_MAX));
     }
