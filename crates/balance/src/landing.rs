@@ -23,9 +23,9 @@ pub struct Landing {
     offsets: Motion,
 }
 
-/// A foot that is not to bear may be pressed by this share of the weight, one that is may lack this share of its load:
-/// walking does so, too.
-const UNEXPECTED: [f64; 2] = [0.05, 0.6];
+/// Shares of the weight that a walking robot's feet bear at least and at most.
+const BEARING_MIN: f64 = 0.4;
+const SWINGING_MAX: f64 = 0.05;
 /// The legs give way or reach by this much at most [m].
 const LIFT_MAX: f64 = 0.03;
 /// What is less is nothing [m].
@@ -45,21 +45,15 @@ impl Landing {
 
     /// Absorbs what the feet bear.
     ///
-    /// * `loads` – vertical force on the bearing and on the swinging foot [N]; `None` if unknown
-    /// * `shares` – of the weight that they are to bear
+    /// * `loads` – vertical force on the bearing and on the swinging foot [N]; `None` if unknown, or if both may bear
     /// * `dt` – time since the last update [s]
-    pub fn update(&mut self, loads: Option<[f64; 2]>, shares: [f64; 2], dt: f64) {
-        for foot in 0..2 {
-            let unexpected = loads.map_or(0.0, |loads| {
-                let share = loads[foot] / self.weight;
-                let more = (share - shares[foot] - UNEXPECTED[0]).max(0.0);
-                let less = (share - shares[foot] * (1.0 - UNEXPECTED[1])).min(0.0);
-                // Too much is nothing to yield to for a foot that is to bear.
-                if shares[foot] > 0.0 { less } else { more }
-            });
-            let yielding = unexpected * self.weight / self.parameters.damping;
-            let lift = (self.lifts[foot] + yielding * dt) / (1.0 + dt / self.parameters.return_time);
-            self.lifts[foot] = lift.clamp(-LIFT_MAX, LIFT_MAX);
+    pub fn update(&mut self, loads: Option<[f64; 2]>, dt: f64) {
+        let [bearing, swinging] = loads.map_or([1.0, 0.0], |loads| loads.map(|load| load / self.weight));
+        let unexpected = [(bearing - BEARING_MIN).min(0.0), (swinging - SWINGING_MAX).max(0.0)];
+        for (lift, share) in self.lifts.iter_mut().zip(unexpected) {
+            let yielding = share * self.weight / self.parameters.damping;
+            *lift = (*lift + yielding * dt) / (1.0 + dt / self.parameters.return_time);
+            *lift = lift.clamp(-LIFT_MAX, LIFT_MAX);
         }
     }
 
@@ -133,7 +127,7 @@ mod tests {
         let kinematics = Kinematics::standing(&tree, &angles);
         for _ in 0..200 {
             let force = 1e5 * (early - landing.lifts[1]).max(0.0);
-            landing.update(Some([700.0, force]), [1.0, 0.0], 1e-3);
+            landing.update(Some([700.0, force]), 1e-3);
             landing.advance(&tree, &kinematics, &angles, 1e-3);
         }
         let raised = Kinematics::standing(&tree, &(angles + landing.offsets().angles));
@@ -148,12 +142,12 @@ mod tests {
     fn a_leg_reaches_for_ground_that_comes_late_and_comes_back() {
         let mut landing = Landing::new(&mechanism(), PARAMETERS);
         for _ in 0..10 {
-            landing.update(Some([0.0, 0.0]), [1.0, 0.0], 1e-3);
+            landing.update(Some([0.0, 0.0]), 1e-3);
         }
         let reached = landing.lifts[0];
         assert!((-0.02..-0.005).contains(&reached), "{reached} m in a hundredth of a second");
         for _ in 0..500 {
-            landing.update(Some([715.0, 0.0]), [1.0, 0.0], 1e-3);
+            landing.update(Some([715.0, 0.0]), 1e-3);
         }
         assert!((landing.lifts[0] / reached - (-1.0_f64).exp()).abs() < 1e-3);
     }
@@ -162,9 +156,9 @@ mod tests {
     fn loads_as_expected_change_nothing() {
         let mut landing = Landing::new(&mechanism(), PARAMETERS);
         for load in [500.0, 716.0, 900.0] {
-            landing.update(Some([load, 20.0]), [1.0, 0.0], 1e-3);
+            landing.update(Some([load, 20.0]), 1e-3);
         }
-        landing.update(Some([200.0, 516.0]), [0.5, 0.5], 1e-3);
+        landing.update(None, 1e-3);
         assert_eq!(landing.lifts, [0.0; 2]);
     }
 }

@@ -151,9 +151,9 @@ impl Controller {
         let sensed = known.map(|centre_of_mass| Balance { centre_of_mass, tilt: self.tilt, zmp });
         self.feedback.update(&self.plan.balance(), sensed.as_ref(), on_both_feet, dt);
 
-        let bearing = self.pattern.weight_on_bearing();
-        let loads = known.filter(|_| !self.is_at_swap()).map(|_| self.ground.loads);
-        self.landing.update(loads, [bearing, 1.0 - bearing], dt);
+        // On both feet the weight goes to and fro as the robot comes to rest.
+        let loads = known.filter(|_| !on_both_feet && !self.is_at_swap()).map(|_| self.ground.loads);
+        self.landing.update(loads, dt);
         self.pattern.sense_tilt(if known.is_some() && !on_both_feet { self.tilt } else { Vector2::zeros() });
         if known.is_some() {
             self.pattern.catch(|growth| self.feedback.excess(growth));
