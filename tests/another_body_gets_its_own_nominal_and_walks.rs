@@ -65,6 +65,10 @@ fn assert_walks(robot: &Mechanism, half_step: &Parameters) {
             let due = coming.next_if(|(at, _)| half_step >= *at);
             let report = walking.tick(due.map(|(_, request)| (request, Some(Intent::Walk))));
             half_step = report.half_step.index;
+            if let Some((_, request)) = due {
+                let granted = [report.command.turn, report.command.speed, report.command.extension].map(Some);
+                assert_eq!(granted, [request.turn, request.speed, request.extension], "{}", robot.name);
+            }
             assert!(
                 !walking.has_fallen(&report) && report.mode == Mode::Walking && walking.time() < 120.0,
                 "{}, seed {seed}: {:?} at {:.2} s in half-step {half_step} with {:?}",
