@@ -13,7 +13,7 @@ fn as_it_was_written() {
     let ours = mechanism();
     let imported = read(&urdf(&ours), &map(Joint::name)).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(imported.mechanism, ours);
-    assert_eq!(imported.changes, [String::new(); 0]);
+    assert!(imported.changes.is_empty(), "{:?}", imported.changes);
 }
 
 #[test]
