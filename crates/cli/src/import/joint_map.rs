@@ -61,8 +61,9 @@ impl JointMap {
         let document = Document::parse(map.text, map.file)?;
         let root = document.root();
         let name = root.text("name").to_string();
-        let sole = sole(&root.table("sole"));
-        let motors = motors(&root);
+        let sole = Sole::read(&root.table("sole"));
+        let motors: Vec<_> =
+            Motor::read_all(&root).into_iter().map(|(name, motor)| (name.to_string(), motor)).collect();
         let mut taken = Taken { robot, by: vec![None; robot.joints.len()] };
         let joint_table = root.table("joint");
         let joints = PerJoint::from_fn(|joint| {
@@ -134,26 +135,6 @@ fn mapped(table: &Table, motors: &[(String, Motor)], taken: &mut Taken) -> Optio
 fn fixed(table: &Table, taken: &mut Taken) -> Option<(usize, f64)> {
     let angle = if table.has("at_deg") { table.angle("at_deg").any() } else { 0.0 };
     Some((taken.take(table, "urdf")?, angle))
-}
-
-fn sole(table: &Table) -> Sole {
-    Sole {
-        behind: table.number("behind_m").positive(),
-        ahead: table.number("ahead_m").positive(),
-        half_width: table.number("width_m").positive() / 2.0,
-        ankle_height: table.number("ankle_height_m").not_negative(),
-    }
-}
-
-fn motors(root: &Table) -> Vec<(String, Motor)> {
-    let motor = |table: &Table| Motor {
-        resistance: table.number("resistance_ohm").positive(),
-        torque_constant: table.number("torque_constant_n_m_per_a").positive(),
-        gear_ratio: table.number("gear_ratio").positive(),
-        rotor_inertia: table.number("rotor_inertia_kg_m2").positive(),
-        voltage_max: table.number("voltage_max_v").positive(),
-    };
-    root.named_tables("motor").iter().map(|(name, table)| (name.to_string(), motor(table))).collect()
 }
 
 fn idealise(table: &Table) -> Idealise {
