@@ -52,14 +52,23 @@ impl Walking {
         plant: &plant::Parameters,
         seed: u64,
     ) -> Self {
-        let table = nominal();
+        Self::begin_by(mechanism, nominal(), controller, plant, seed)
+    }
+
+    /// The same with another half-step.
+    pub fn begin_by(
+        mechanism: &Mechanism,
+        table: Arc<NominalTable>,
+        controller: &controller::Parameters,
+        plant: &plant::Parameters,
+        seed: u64,
+    ) -> Self {
         let start = Walk::new(table.clone(), mechanism, &controller.gait, Start::default())
-            .expect("the committed nominal walks")
+            .expect("the nominal walks")
             .physical_motion();
         let mut plant = Plant::new(mechanism, plant, &start, PERIOD, seed);
         let measured = sensed(&plant.measure());
-        let controller =
-            Controller::new(mechanism, table, controller, Start::default()).expect("the committed nominal walks");
+        let controller = Controller::new(mechanism, table, controller, Start::default()).expect("the nominal walks");
         Self { controller, plant, measured, tick: 0 }
     }
 

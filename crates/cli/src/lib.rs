@@ -9,6 +9,7 @@ pub mod configuration;
 pub mod engine;
 pub mod exchange;
 pub mod failure;
+pub mod import;
 pub mod inbox;
 pub mod interrupt;
 pub mod mjcf;

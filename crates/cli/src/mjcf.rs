@@ -170,12 +170,13 @@ fn inertial(out: &mut Lines, body: &Body) {
 /// For the eye: rods to the joints of what the link carries, and the box of its mass and moments where that is nothing, or
 /// where several limbs meet.
 fn appearance_of(out: &mut Lines, mechanism: &Mechanism, link: Joint) {
-    let carried: Vec<_> = carried_by(mechanism, link).collect();
-    for child in &carried {
-        let end = place_on_parent(mechanism, *child);
+    // A joint in the same point leaves no rod to draw.
+    let ends = carried_by(mechanism, link).map(|child| place_on_parent(mechanism, child));
+    let ends: Vec<_> = ends.filter(|end| end.norm() > 0.0).collect();
+    for end in &ends {
         out.line(format_args!(r#"<geom type="capsule" fromto="0 0 0 {}" size="0.045"/>"#, numbers(end.as_slice())));
     }
-    if carried.len() != 1 {
+    if ends.len() != 1 {
         let Body { com, .. } = mechanism.links[link].body;
         let half = equivalent_sides(&mechanism.links[link].body) / 2.0;
         out.line(format_args!(

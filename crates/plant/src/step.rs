@@ -1,6 +1,6 @@
 //! One control period of the simulated robot.
 
-use dynamics::{ArticulatedBody, Tree};
+use dynamics::{ArticulatedBody, Kinematics, Tree};
 use model::{GRAVITY, Joint, JointVector, Mechanism, Motion, Side, Wrench};
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -27,6 +27,8 @@ pub struct Plant {
     /// As built: with its errors of mass.
     pub(crate) mechanism: Mechanism,
     pub(crate) tree: Tree,
+    /// Height of its centre of mass when it stands straight [m].
+    pub(crate) standing_height: f64,
     pub(crate) parameters: Parameters,
     period: f64,
     /// Control periods since the start.
@@ -69,6 +71,7 @@ impl Plant {
             world_to_level: parameters.slope.world_to_level(),
             ground: [Wrench::ZERO; 2],
             motor_torques: JointVector::ZERO,
+            standing_height: Kinematics::standing(&tree, &JointVector::ZERO).com(&tree).z,
             mechanism,
             parameters: parameters.clone(),
             period,

@@ -22,12 +22,18 @@ pub struct Truth {
     pub zmp: Option<Vector2<f64>>,
     /// Angle of the trunk's long axis against the true vertical [rad].
     pub trunk_tilt: f64,
+    /// Height of the centre of mass when the robot stands straight [m].
+    pub standing_height: f64,
 }
 
+/// A centre of mass below this share of its height when standing is a fall: 0.45 m of a human-size robot.
+const FALLEN_SHARE: f64 = 0.453;
+
 impl Truth {
-    /// Whether the robot lies or is past saving: trunk tilted over 60° or its centre of mass below 0.45 m.
+    /// Whether the robot lies or is past saving: trunk tilted over 60° or its centre of mass at less than half the height at which
+    /// it stands.
     pub fn has_fallen(&self) -> bool {
-        !(self.trunk_tilt < std::f64::consts::FRAC_PI_3 && self.com.z > 0.45)
+        !(self.trunk_tilt < std::f64::consts::FRAC_PI_3 && self.com.z > FALLEN_SHARE * self.standing_height)
     }
 }
 
@@ -45,6 +51,7 @@ impl Plant {
             com,
             com_velocity,
             zmp: zmp(&total).map(|point| point + base.xy()),
+            standing_height: self.standing_height,
             trunk_tilt: trunk_axis.dot(&self.parameters.slope.up()).clamp(-1.0, 1.0).acos(),
         }
     }

@@ -14,12 +14,14 @@ pub struct Footwork {
     swing: SwingPath,
     shift: LandingShift,
     hips: HipHeight,
+    /// Between the soles' middles at least [m].
+    soles_apart: f64,
 }
 
 /// How far a landing is shifted at most, ahead or back and outward [m].
 const SHIFT_MAX: Vector2<f64> = Vector2::new(0.2, 0.15);
-/// Between the soles' middles at least [m]: 2 cm between their edges, and some for turned feet.
-const SOLES_APART: f64 = 0.12;
+/// Between the soles' edges at least, side by side [m]: 2 cm, and some for turned feet.
+const SOLES_APART: f64 = 0.04;
 /// What is not worth another plan [m].
 const SHIFT_STEP: f64 = 0.008;
 
@@ -32,13 +34,14 @@ impl Footwork {
             swing: swing_path(biped, &course),
             shift: LandingShift::default(),
             hips: HipHeight::new(biped, &course.walk),
+            soles_apart: 2.0 * biped.mechanism.sole.half_width + SOLES_APART,
             course,
         }
     }
 
     /// Moves on by a knot and says whether a half-step began.
     pub fn advance(&mut self, biped: &Biped) -> bool {
-        let Self { course, swing, shift, hips } = self;
+        let Self { course, swing, shift, hips, .. } = self;
         let event = course.advance(biped);
         if event != Event::None {
             *swing = swing_path(biped, course);
@@ -79,7 +82,7 @@ impl Footwork {
     }
 
     fn within_reach(&self, shift: Vector2<f64>) -> Vector2<f64> {
-        let inward = (SOLES_APART - self.unshifted_landing().y).min(0.0);
+        let inward = (self.soles_apart - self.unshifted_landing().y).min(0.0);
         Vector2::new(shift.x.clamp(-SHIFT_MAX.x, SHIFT_MAX.x), shift.y.clamp(inward, SHIFT_MAX.y))
     }
 

@@ -3,6 +3,7 @@
 mod check;
 mod controller;
 mod export;
+mod import;
 mod paper;
 mod plant;
 mod send;
@@ -44,6 +45,7 @@ enum Command {
     Paper(paper::Paper),
     Check(check::Check),
     Export(export::Export),
+    Import(import::Import),
 }
 
 impl Halfstep {
@@ -63,6 +65,7 @@ impl Halfstep {
             Command::Paper(paper) => paper.run(json),
             Command::Check(check) => check.run(json),
             Command::Export(export) => export.run(),
+            Command::Import(import) => import.run(json),
         }
     }
 }

@@ -32,8 +32,8 @@ impl Mechanism {
         let document = Document::parse(text, file)?;
         let root = document.root();
         let name = root.text("name").to_string();
-        let sole = sole(&root.table("sole"));
-        let motors = motors(&root);
+        let sole = Sole::read(&root.table("sole"));
+        let motors = Motor::read_all(&root);
         let joint_table = root.table("joint");
         let tables = PerJoint::from_fn(|joint| joint_table.table(joint.name()));
         let links = PerJoint::from_fn(|joint| link(joint, &tables[joint], &motors));
@@ -46,25 +46,33 @@ impl Mechanism {
     }
 }
 
-fn sole(table: &Table) -> Sole {
-    Sole {
-        behind: table.number("behind_m").positive(),
-        ahead: table.number("ahead_m").positive(),
-        half_width: table.number("width_m").positive() / 2.0,
-        ankle_height: table.number("ankle_height_m").not_negative(),
+impl Sole {
+    /// Reads a table `[sole]`, noting what is wrong.
+    pub fn read(table: &Table) -> Self {
+        Self {
+            behind: table.number("behind_m").positive(),
+            ahead: table.number("ahead_m").positive(),
+            half_width: table.number("width_m").positive() / 2.0,
+            ankle_height: table.number("ankle_height_m").not_negative(),
+        }
     }
 }
 
-/// The motors by name. Joints of one type share one.
-fn motors<'d>(root: &Table<'d>) -> Vec<(&'d str, Motor)> {
-    let motor = |table: &Table| Motor {
-        resistance: table.number("resistance_ohm").positive(),
-        torque_constant: table.number("torque_constant_n_m_per_a").positive(),
-        gear_ratio: table.number("gear_ratio").positive(),
-        rotor_inertia: table.number("rotor_inertia_kg_m2").positive(),
-        voltage_max: table.number("voltage_max_v").positive(),
-    };
-    root.named_tables("motor").iter().map(|(name, table)| (*name, motor(table))).collect()
+impl Motor {
+    /// Reads all tables `[motor.NAME]` of a file by their names, noting what is wrong. Joints of one type share one.
+    pub fn read_all<'d>(root: &Table<'d>) -> Vec<(&'d str, Self)> {
+        root.named_tables("motor").iter().map(|(name, table)| (*name, Self::read(table))).collect()
+    }
+
+    fn read(table: &Table) -> Self {
+        Self {
+            resistance: table.number("resistance_ohm").positive(),
+            torque_constant: table.number("torque_constant_n_m_per_a").positive(),
+            gear_ratio: table.number("gear_ratio").positive(),
+            rotor_inertia: table.number("rotor_inertia_kg_m2").positive(),
+            voltage_max: table.number("voltage_max_v").positive(),
+        }
+    }
 }
 
 fn link(joint: Joint, table: &Table, motors: &[(&str, Motor)]) -> Link {
