@@ -4,6 +4,7 @@
 //! together do not know each other: what one says is put into the other's words in [`exchange`].
 
 pub mod advisor;
+pub mod clerk;
 pub mod command;
 pub mod configuration;
 pub mod engine;
@@ -18,6 +19,7 @@ pub mod picture;
 pub mod process;
 pub mod progress;
 pub mod python_messages;
+pub mod realtime;
 pub mod record;
 pub mod run_controller;
 pub mod run_log;
