@@ -17,8 +17,10 @@ use crate::interrupt::Interrupt;
 
 /// Longest silence of the other side that lockstep bears.
 const SILENCE_MAX: Duration = Duration::from_secs(30);
-/// How long a waiting process spins before it sleeps between two looks: waking up costs more than a whole lockstep turn.
-const SPIN: Duration = Duration::from_millis(2);
+/// How long a waiting process keeps its core, longer than a turn of the other side takes; then it lets others have it, and
+/// at last it sleeps between two looks: waking up costs more than a whole lockstep turn.
+const SPIN: Duration = Duration::from_micros(50);
+const YIELD: Duration = Duration::from_millis(2);
 const NAP: Duration = Duration::from_micros(200);
 /// Most periods that one turn makes up for: whoever was away for longer has been halted, and nothing was to be done then.
 const MADE_UP_MAX: u64 = 100;
@@ -158,6 +160,10 @@ impl<M: Newest> Turns<M> {
             }
             let waited = Duration::from_nanos(now_ns() - began);
             if waited < SPIN {
+                std::hint::spin_loop();
+                continue;
+            }
+            if waited < YIELD {
                 std::thread::yield_now();
                 continue;
             }

@@ -115,18 +115,32 @@ impl<M: Newest> NewestReader<M> {
     /// The newest message, whether or not it was read before; `None` as long as none was ever written.
     #[inline]
     pub fn newest(&mut self) -> Option<M> {
+        self.look();
+        (self.last.tick() != NOTHING_YET).then_some(*self.last)
+    }
+
+    /// The newest message, if it was not read before. Cheaper to ask again and again than [`newest`](Self::newest).
+    #[inline]
+    pub fn news(&mut self) -> Option<&M> {
+        self.look().then_some(&self.last)
+    }
+
+    /// Reads the newest message, if there is one that was not read before.
+    #[inline]
+    fn look(&mut self) -> bool {
         // As long as the current writer writes, nobody else does. When it is silent, the next place and one other are
         // looked at per call: looking at all of them would take longer than a message takes to arrive.
         if !self.slots[self.current].is_up_to_date(&self.last) {
             self.last = self.slots[self.current].get();
-        } else {
-            self.probe = if self.probe + 1 < self.slots.len() { self.probe + 1 } else { self.current + 1 };
-            let is_written = |slot: usize| self.slots.get(slot).is_some_and(|slot| !slot.is_up_to_date(&self.untouched));
-            if is_written(self.current + 1) || is_written(self.probe) {
-                self.find_highest();
-            }
+            return true;
         }
-        (self.last.tick() != NOTHING_YET).then_some(*self.last)
+        self.probe = if self.probe + 1 < self.slots.len() { self.probe + 1 } else { self.current + 1 };
+        let is_written = |slot: usize| self.slots.get(slot).is_some_and(|slot| !slot.is_up_to_date(&self.untouched));
+        if is_written(self.current + 1) || is_written(self.probe) {
+            self.find_highest();
+            return true;
+        }
+        false
     }
 
     /// Moves on to the last writer: writers take the first free place, and the places of killed ones never become free,

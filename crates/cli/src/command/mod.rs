@@ -1,5 +1,6 @@
 //! The commands, one per file.
 
+mod bench;
 mod check;
 mod controller;
 mod export;
@@ -44,6 +45,7 @@ enum Command {
     Synthesize(synthesize::Synthesize),
     Paper(paper::Paper),
     Check(check::Check),
+    Bench(bench::Bench),
     Export(export::Export),
 }
 
@@ -63,6 +65,7 @@ impl Halfstep {
             Command::Synthesize(synthesize) => synthesize.run(json),
             Command::Paper(paper) => paper.run(json),
             Command::Check(check) => check.run(json),
+            Command::Bench(bench) => bench.run(json),
             Command::Export(export) => export.run(),
         }
     }
