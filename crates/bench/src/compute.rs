@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use balance::Preview;
-use controller::{Controller, Measurement};
+use controller::{Asked, Controller, Lasting, Measurement, Source, TickReport};
 use dynamics::{ArticulatedBody, NewtonEuler, Tree, zmp};
 use gait::{NominalTable, Start, Walk};
 use model::{JointVector, Mechanism, Motion, PerJoint};
@@ -118,6 +118,7 @@ fn works(options: &ComputeOptions) -> Result<Vec<Work<'static>>, BenchError> {
             Plant::new(&mechanism, &plant, &start, period, 1),
         ))
     };
+    let forecast = forecast_timed(begin()?, period);
     let tick = walk_timed(begin()?, period, begin);
 
     Ok(vec![
@@ -126,7 +127,30 @@ fn works(options: &ComputeOptions) -> Result<Vec<Work<'static>>, BenchError> {
         Work::batched("plant, a control period on both soles", plant_period),
         tick,
         Work::single("preview, plan of a half-step", plan),
+        forecast,
     ])
+}
+
+/// Requests for another speed, played ahead; only that counts.
+fn forecast_timed((mut controller, mut plant): (Controller, Plant), period: f64) -> Work<'static> {
+    let mut faster = false;
+    Work::new("forecast of a request", 1, move || {
+        faster = !faster;
+        let request = gait::Request { speed: Some(if faster { 1.05 } else { 0.95 }), ..gait::Request::default() };
+        let (source, lasting) = (Source::Program, Lasting::UntilChanged);
+        controller.ask(&Asked { request, intent: None, source, lasting });
+        let took_ns = controller.inquiry().map(|mut inquiry| {
+            let began_ns = now_ns();
+            inquiry.settle();
+            let took_ns = now_ns() - began_ns;
+            controller.give_back(inquiry);
+            took_ns
+        });
+        // The answer leaves with a tick.
+        let report = controller.tick(period, Some(&sensed(&plant.measure())));
+        plant.step(&setpoint(&report));
+        took_ns
+    })
 }
 
 /// Ticks of a controller that walks its plant; only the tick counts.
@@ -148,8 +172,7 @@ fn walk_timed(
         let began_ns = now_ns();
         let report = controller.tick(period, Some(black_box(&measured)));
         let took_ns = now_ns() - began_ns;
-        let controller::Setpoint { angles, rates, feed_forward } = report.setpoint;
-        plant.step(&Setpoint { angles, rates, feed_forward });
+        plant.step(&setpoint(&report));
         Some(took_ns)
     };
     let mut work = Work::new(TICK, 1, run);
@@ -200,6 +223,11 @@ impl Work<'static> {
 fn motion() -> Motion {
     let spread = |size: f64| PerJoint::from_fn(|joint| size * (f64::from(joint.number()) * 0.7).sin());
     Motion { angles: spread(0.5), rates: spread(2.0), accelerations: spread(10.0) }
+}
+
+fn setpoint(report: &TickReport) -> Setpoint {
+    let controller::Setpoint { angles, rates, feed_forward } = report.setpoint;
+    Setpoint { angles, rates, feed_forward }
 }
 
 fn sensed(measured: &plant::Measurement) -> Measurement {
