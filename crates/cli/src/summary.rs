@@ -118,9 +118,6 @@ impl fmt::Display for WalkSummary {
         }
         writeln!(out, "{}", self.requests)?;
         let Self { real_time_factor, deadline_misses, log_gaps, .. } = self;
-        write!(
-            out,
-            "{real_time_factor:.1} × real time, {deadline_misses} deadlines missed, {log_gaps} reports dropped"
-        )
+        write!(out, "{real_time_factor:.1} × real time, {deadline_misses} deadlines missed, {log_gaps} reports dropped")
     }
 }

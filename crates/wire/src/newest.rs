@@ -128,19 +128,21 @@ impl<M: Newest> NewestReader<M> {
     /// Reads the newest message, if there is one that was not read before.
     #[inline]
     fn look(&mut self) -> bool {
-        // As long as the current writer writes, nobody else does. When it is silent, the next place and one other are
-        // looked at per call: looking at all of them would take longer than a message takes to arrive.
-        if !self.slots[self.current].is_up_to_date(&self.last) {
-            self.last = self.slots[self.current].get();
-            return true;
-        }
-        self.probe = if self.probe + 1 < self.slots.len() { self.probe + 1 } else { self.current + 1 };
+        // Who writes beyond the current writer has come after it was killed. Besides the next place one other is looked at
+        // per call, while there is no news: looking at all of them would take longer than a message takes to arrive.
         let is_written = |slot: usize| self.slots.get(slot).is_some_and(|slot| !slot.is_up_to_date(&self.untouched));
-        if is_written(self.current + 1) || is_written(self.probe) {
-            self.find_highest();
-            return true;
+        let mut is_followed = is_written(self.current + 1);
+        let is_news = !self.slots[self.current].is_up_to_date(&self.last);
+        if !is_followed && !is_news {
+            self.probe = if self.probe + 1 < self.slots.len() { self.probe + 1 } else { self.current + 1 };
+            is_followed = is_written(self.probe);
         }
-        false
+        if is_followed {
+            self.find_highest();
+        } else if is_news {
+            self.last = self.slots[self.current].get();
+        }
+        is_followed || is_news
     }
 
     /// Moves on to the last writer: writers take the first free place, and the places of killed ones never become free,

@@ -112,7 +112,7 @@ impl Bench {
     fn compute(&self, rounds: u32, turn: Duration) -> Result<Findings, Failure> {
         let Loaded { robot, controller, plant, realtime } = self.load()?;
         let Scheduling { core, lock_memory, .. } = realtime.controller;
-        Ok(compute(&ComputeOptions {
+        let options = ComputeOptions {
             mechanism: robot.mechanism,
             nominal: robot.nominal,
             controller,
@@ -121,7 +121,8 @@ impl Bench {
             turn,
             period: realtime.rate.period_s(),
             scheduling: Scheduling { core, lock_memory, ..Scheduling::default() },
-        })?)
+        };
+        Ok(apart(|| compute(&options))?)
     }
 
     fn latency(&self, rounds: u32, trips: u64, requests: u32) -> Result<Findings, Failure> {
@@ -132,13 +133,14 @@ impl Bench {
         let scheduling = cores.map(|core| Scheduling { priority, ..awake_on(core) });
         let options = ExchangeOptions { rounds, trips, trips_at_pace: TRIPS_AT_PACE, period, scheduling };
         let instance = own_instance("exchange")?;
-        let mut findings = exchange(&options, &instance, || {
+        let answering = || {
             let mut command = Command::new(std::env::current_exe()?);
             let core = cores[1].to_string();
             command.args(["bench", "answer", "--instance", instance.name().as_str(), "--core", &core]);
             command.args(priority.into_iter().flat_map(|priority| ["--priority".to_owned(), priority.to_string()]));
             Ok(command)
-        })?;
+        };
+        let mut findings = apart(|| exchange(&options, &instance, answering))?;
 
         let options = InCommandOptions { rate: realtime.rate, requests, flat_out: FLAT_OUT, scheduling: scheduling[0] };
         let start = robot.nominal.at(0.0);
@@ -180,11 +182,11 @@ impl Bench {
     }
 
     /// Starts a controller of its own, does something with it and ends it.
-    fn with_controller<T>(
+    fn with_controller<T: Send>(
         &self,
         realtime: &RealtimeParameters,
         options: &[&str],
-        work: impl FnOnce(&Instance) -> Result<T, BenchError>,
+        work: impl FnOnce(&Instance) -> Result<T, BenchError> + Send,
     ) -> Result<T, Failure> {
         let instance = own_instance("controller")?.with_rate_hz(realtime.rate.hz());
         let _leftovers = instance.leftovers();
@@ -199,7 +201,7 @@ impl Bench {
             .spawn()
             .map_err(cannot)?;
         let _ended = Ended(child);
-        Ok(work(&instance)?)
+        Ok(apart(|| work(&instance))?)
     }
 }
 
@@ -231,6 +233,11 @@ fn cores(realtime: &RealtimeParameters) -> Result<[usize; 2], Failure> {
             "this needs core {core} (config/realtime.toml), and there are {count}: who waits awake needs a core of its own"
         ))),
     }
+}
+
+/// Does it in a thread of its own: what that asks of the system is not for this one, nor for the processes it starts.
+fn apart<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    std::thread::scope(|threads| threads.spawn(work).join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
 }
 
 fn awake_on(core: usize) -> Scheduling {
