@@ -198,7 +198,8 @@ fn bare_loop(length: Duration, periods: u64, series: &mut Series) {
 /// Looks at the clock without end, and adds the longest time between two looks of each period.
 fn longest_gaps(length: Duration, periods: u64, series: &mut Series) {
     let mut last_ns = now_ns();
-    for _ in 0..periods {
+    let over_ns = last_ns + periods * length.as_nanos() as u64;
+    while last_ns < over_ns {
         let end_ns = last_ns + length.as_nanos() as u64;
         let mut longest_ns = 0;
         while last_ns < end_ns {
