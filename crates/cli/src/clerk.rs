@@ -90,9 +90,9 @@ impl Clerk {
     }
 
     /// The next letter, if one has come. Beside the loop it neither allocates nor waits, and neither does [`reply`](Self::reply).
-    pub fn next(&mut self) -> Option<Letter> {
+    pub fn next_letter(&mut self) -> Option<Letter> {
         match self {
-            Clerk::Here(counter) => counter.next(),
+            Clerk::Here(counter) => counter.next_letter(),
             Clerk::Beside { trays, .. } => trays.letters.pop(),
         }
     }
@@ -121,7 +121,7 @@ impl Clerk {
 
 impl Counter {
     /// The next request that an operator has sent.
-    pub fn next(&mut self) -> Option<Letter> {
+    pub fn next_letter(&mut self) -> Option<Letter> {
         // An operator whose memory cannot be reached has gone; the next look finds the others.
         let (message, answer) = self.server.next_request().ok().flatten()?;
         let id = LetterId(self.next);
@@ -150,7 +150,7 @@ impl Counter {
                 return;
             }
             while !trays.letters.is_full()
-                && let Some(letter) = self.next()
+                && let Some(letter) = self.next_letter()
             {
                 // The loop only takes out: there is still room.
                 let _ = trays.letters.push(letter);

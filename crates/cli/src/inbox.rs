@@ -51,7 +51,7 @@ impl Inbox {
 
     /// Takes in what has come, and refuses at once what cannot be granted whatever happens.
     pub fn collect(&mut self) {
-        while let Some(letter) = self.clerk.next() {
+        while let Some(letter) = self.clerk.next_letter() {
             self.take(letter);
         }
     }
@@ -97,7 +97,7 @@ impl Inbox {
         let (mut counter, unread) = self.clerk.close();
         let ids = self.waiting.iter().map(|waiting| waiting.due.id).chain(unread.iter().map(|letter| letter.id));
         ids.for_each(|id| counter.reply(id, &refusal));
-        while let Some(letter) = counter.next() {
+        while let Some(letter) = counter.next_letter() {
             counter.reply(letter.id, &refusal);
         }
         self.tally
