@@ -167,6 +167,14 @@ impl Running {
         self.finish()
     }
 
+    /// Halts it, as a debugger does, and lets it go on after a while.
+    pub fn halt_for(&self, time: Duration) {
+        let pid = rustix::process::Pid::from_child(&self.child);
+        rustix::process::kill_process(pid, rustix::process::Signal::STOP).expect("it is still there");
+        std::thread::sleep(time);
+        rustix::process::kill_process(pid, rustix::process::Signal::CONT).expect("it is still there");
+    }
+
     /// Kills it; it has no chance to clean up.
     pub fn kill(mut self) {
         self.child.kill().expect("it is still there");

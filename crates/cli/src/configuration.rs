@@ -10,11 +10,12 @@ use model::{Joint, Mechanism, Mirror};
 use plant::Disturbances;
 
 use crate::failure::Failure;
+use crate::realtime::RealtimeParameters;
 
 /// Where the configuration lies.
 #[derive(Clone, Debug, clap::Args)]
 pub struct ConfigOptions {
-    /// Folder with mechanism.toml, nominal_half_step.csv, controller.toml and plant.toml
+    /// Folder with mechanism.toml, nominal_half_step.csv, controller.toml, plant.toml and realtime.toml
     #[arg(long, value_name = "DIR", default_value = "config")]
     pub config: PathBuf,
     /// The robot, if not the folder's mechanism.toml
@@ -96,6 +97,11 @@ impl ConfigOptions {
     /// Reads what is set about the plant.
     pub fn plant(&self, errors: &mut Errors) -> Option<plant::Parameters> {
         errors.note(plant::Parameters::load(self.config.join("plant.toml")))
+    }
+
+    /// Reads what is set about the loops' time.
+    pub fn realtime(&self, errors: &mut Errors) -> Option<RealtimeParameters> {
+        errors.note(RealtimeParameters::load(self.config.join("realtime.toml")))
     }
 
     /// Reads what happens to the plant, if anything.

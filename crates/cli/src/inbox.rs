@@ -2,8 +2,9 @@
 
 use controller::{Asked, TickReport};
 use serde::{Deserialize, Serialize};
-use wire::{Answer, Granted, Reason, Reply, RequestMessage, RequestServer, Verdict};
+use wire::{Granted, Reason, Reply, Verdict};
 
+use crate::clerk::{Clerk, Letter, LetterId};
 use crate::exchange;
 
 /// How many requests may wait for their tick.
@@ -11,7 +12,7 @@ pub const CAPACITY: usize = 256;
 
 /// Requests on their way to the controller, earliest tick first; of one tick, first come first served.
 pub struct Inbox {
-    server: RequestServer,
+    clerk: Clerk,
     waiting: heapless::Vec<Waiting, CAPACITY>,
     /// What a refused request is told to be in force.
     in_force: (u64, Granted),
@@ -27,7 +28,7 @@ struct Waiting {
 pub struct Due {
     /// What is asked.
     pub asked: Asked,
-    answer: Answer,
+    id: LetterId,
 }
 
 /// How many requests were answered how. A stream's signs of life are none.
@@ -42,29 +43,27 @@ pub struct Tally {
 }
 
 impl Inbox {
-    /// Empty, for the requests that come to `server`.
-    pub fn new(server: RequestServer) -> Self {
+    /// Empty, for the letters that a clerk brings.
+    pub fn new(clerk: Clerk) -> Self {
         let granted = Granted { turn: 0.0, speed: 1.0, extension: 0.0, intent: None };
-        Self { server, waiting: heapless::Vec::new(), in_force: (0, granted), tally: Tally::default() }
+        Self { clerk, waiting: heapless::Vec::new(), in_force: (0, granted), tally: Tally::default() }
     }
 
     /// Takes in what has come, and refuses at once what cannot be granted whatever happens.
     pub fn collect(&mut self) {
-        // An operator whose memory cannot be reached has gone; the next look finds the others.
-        while let Ok(Some((message, answer))) = self.server.next_request() {
-            self.take(&message, answer);
+        while let Some(letter) = self.clerk.next_letter() {
+            self.take(letter);
         }
     }
 
-    fn take(&mut self, message: &RequestMessage, answer: Answer) {
-        let (not_before, asked) = match exchange::request::for_controller(message) {
+    fn take(&mut self, Letter { id, asked }: Letter) {
+        let (not_before, asked) = match asked {
             Ok(asked) => asked,
-            Err(reason) => return self.refuse(answer, reason),
+            Err(reason) => return self.refuse(id, reason),
         };
         let place = self.waiting.partition_point(|waiting| waiting.not_before <= not_before);
-        let waiting = Waiting { not_before, due: Due { asked, answer } };
-        if let Err(waiting) = self.waiting.insert(place, waiting) {
-            self.refuse(waiting.due.answer, Reason::QueueFull);
+        if self.waiting.insert(place, Waiting { not_before, due: Due { asked, id } }).is_err() {
+            self.refuse(id, Reason::QueueFull);
         }
     }
 
@@ -87,25 +86,27 @@ impl Inbox {
             if !due.asked.is_empty() {
                 self.tally.count(reply.verdict);
             }
-            // Whether the operator is still there to hear it changes nothing.
-            due.answer.reply(&(&reply).into());
+            self.clerk.reply(due.id, reply);
         }
     }
 
     /// Refuses what still waits, because the controller ends. Gives the tally of what was asked in time.
-    pub fn close(mut self) -> Tally {
-        let tally = self.tally;
-        self.collect();
-        while let Some(waiting) = self.waiting.pop() {
-            self.refuse(waiting.due.answer, Reason::ShuttingDown);
+    pub fn close(self) -> Tally {
+        let (effect_half_step, granted) = self.in_force;
+        let refusal = Reply::refused(Reason::ShuttingDown, effect_half_step, granted);
+        let (mut counter, unread) = self.clerk.close();
+        let ids = self.waiting.iter().map(|waiting| waiting.due.id).chain(unread.iter().map(|letter| letter.id));
+        ids.for_each(|id| counter.reply(id, &refusal));
+        while let Some(letter) = counter.next_letter() {
+            counter.reply(letter.id, &refusal);
         }
-        tally
+        self.tally
     }
 
-    fn refuse(&mut self, answer: Answer, reason: Reason) {
+    fn refuse(&mut self, id: LetterId, reason: Reason) {
         let (effect_half_step, granted) = self.in_force;
         self.tally.count(Verdict::Refused);
-        answer.reply(&(&Reply::refused(reason, effect_half_step, granted)).into());
+        self.clerk.reply(id, Reply::refused(reason, effect_half_step, granted));
     }
 }
 

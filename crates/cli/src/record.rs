@@ -12,6 +12,7 @@ use crate::exchange;
 use crate::failure::Failure;
 use crate::run_log::{ControllerRow, PlantRow, Row, RowWriter, RunLogError};
 use crate::turns::Clock;
+use runtime::Rate;
 
 /// How many entries may wait for the thread: 4 s of the controller's.
 const CAPACITY: usize = 4096;
@@ -70,6 +71,7 @@ struct Rows<R> {
 /// The log cannot be written or the thread not be started.
 pub fn of_controller(
     clock: Clock,
+    rate: Rate,
     folder: Option<&Path>,
     mut reports: ReportPublisher,
 ) -> Result<(Record<ControllerEntry>, RecordEnd<ControllerRow>), Failure> {
@@ -80,7 +82,7 @@ pub fn of_controller(
         {
             tracing::warn!("observers do not hear everything: {fault}");
         }
-        exchange::row::of_controller(entry)
+        exchange::row::of_controller(entry, rate)
     })
 }
 
@@ -88,8 +90,12 @@ pub fn of_controller(
 ///
 /// # Errors
 /// The log cannot be written or the thread not be started.
-pub fn of_plant(clock: Clock, folder: Option<&Path>) -> Result<(Record<PlantEntry>, RecordEnd<PlantRow>), Failure> {
-    open(clock, folder, exchange::row::of_plant)
+pub fn of_plant(
+    clock: Clock,
+    rate: Rate,
+    folder: Option<&Path>,
+) -> Result<(Record<PlantEntry>, RecordEnd<PlantRow>), Failure> {
+    open(clock, folder, move |entry| exchange::row::of_plant(entry, rate))
 }
 
 fn open<E: Copy + Send + 'static, R: Row + Send + 'static>(

@@ -1,6 +1,6 @@
 //! The controller's loop: wait, read, tick, write.
 
-use controller::{Controller, Mode};
+use controller::{Asked, Controller, Intent, Lasting, Mode, Source};
 use runtime::now_ns;
 use wire::{MeasurementMessage, NewestWriter, SetpointMessage};
 
@@ -8,7 +8,7 @@ use crate::advisor::Advisor;
 use crate::exchange;
 use crate::inbox::Inbox;
 use crate::record::{ControllerEntry, Record};
-use crate::turns::{PERIOD, PeerSilent, Turns};
+use crate::turns::{PeerSilent, Turns};
 
 /// What there is to say at the end.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,7 +23,15 @@ pub struct ControllerRun {
     pub mode: Option<Mode>,
 }
 
-/// Runs until the turns end.
+/// What the loop asks by itself when it is too late too often.
+const STAND: Asked = Asked {
+    request: gait::Request { turn: None, speed: None, extension: None },
+    intent: Some(Intent::Hold),
+    source: Source::Program,
+    lasting: Lasting::UntilChanged,
+};
+
+/// Runs until the turns end. After `hold_after_misses` deadlines missed in a row the robot comes to a stand; 0 is never.
 ///
 /// # Errors
 /// In lockstep the plant has been silent for too long.
@@ -32,11 +40,13 @@ pub fn run_controller(
     turns: &mut Turns<MeasurementMessage>,
     setpoints: &mut NewestWriter<SetpointMessage>,
     inbox: &mut Inbox,
+    advisor: &mut Advisor,
     record: &mut Record<ControllerEntry>,
+    hold_after_misses: u64,
 ) -> Result<ControllerRun, PeerSilent> {
     let mut run = ControllerRun::default();
-    let mut advisor = Advisor::new(turns.clock());
     let mut asked = None;
+    let mut must_stand = false;
     while let Some(turn) = turns.wait(|| inbox.collect())? {
         let time_ns = now_ns();
         run.missed += turn.missed;
@@ -44,7 +54,12 @@ pub fn run_controller(
         let measurement = exchange::measurement::for_controller(&turn.message);
         inbox.collect();
         advisor.serve(controller);
-        if controller.is_free()
+        must_stand |= hold_after_misses > 0 && turn.missed_in_a_row >= hold_after_misses;
+        if must_stand && controller.is_free() {
+            must_stand = false;
+            controller.ask(&STAND);
+            advisor.serve(controller);
+        } else if controller.is_free()
             && let Some(due) = inbox.due(turn.tick)
         {
             controller.ask(&due.asked);
@@ -52,8 +67,7 @@ pub fn run_controller(
             advisor.serve(controller);
         }
 
-        let dt = turn.periods as f64 * PERIOD.as_secs_f64();
-        let report = controller.tick(dt, Some(&measurement));
+        let report = controller.tick(turn.dt, Some(&measurement));
 
         setpoints.write(&exchange::setpoint::message(turn.message.tick, time_ns, &report.setpoint));
         let compute_ns = now_ns() - time_ns;

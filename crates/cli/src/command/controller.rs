@@ -4,10 +4,13 @@ use gait::Start;
 use wire::ControllerEnd;
 
 use super::{InstanceOption, LoopOptions, PartOptions, print};
+use crate::advisor::Advisor;
+use crate::clerk::Clerk;
 use crate::configuration::{ConfigOptions, Errors};
 use crate::failure::{Failure, Outcome};
-use crate::inbox::Inbox;
+use crate::inbox::{CAPACITY, Inbox};
 use crate::interrupt::Interrupt;
+use crate::realtime;
 use crate::record;
 use crate::run_controller::run_controller;
 use crate::summary::ControllerSummary;
@@ -33,7 +36,8 @@ impl Controller {
 
         let mut errors = Errors::default();
         let loaded = self.config.robot(&mut errors).zip(self.config.controller(&mut errors));
-        let (robot, mut parameters) = errors.finish(loaded)?;
+        let loaded = loaded.zip(self.config.realtime(&mut errors));
+        let ((robot, mut parameters), realtime) = errors.finish(loaded)?;
         let clock = self.runs.clock();
         if clock == Clock::Lockstep {
             // Operators live by the clock on the wall, and half a second in lockstep is over in a few milliseconds.
@@ -45,12 +49,24 @@ impl Controller {
             begin(&robot.mechanism, robot.nominal, &parameters, Start::default()).map_err(Failure::bad_input)?;
 
         let ControllerEnd { mut setpoints, measurements, requests, reports } =
-            ControllerEnd::connect(&self.instance.instance()?, fingerprint)?;
-        let (mut record, record_end) = record::of_controller(clock, self.part.out.as_deref(), reports)?;
-        let mut turns = Turns::new(clock, measurements, "plant", self.runs.ticks(), interrupt);
-        let mut inbox = Inbox::new(requests);
+            ControllerEnd::connect(&self.instance.at_rate(realtime.rate)?, fingerprint)?;
+        let (mut record, record_end) = record::of_controller(clock, realtime.rate, self.part.out.as_deref(), reports)?;
+        let ticks = self.runs.ticks(realtime.rate);
+        let mut turns = Turns::new(realtime.pace(clock), measurements, "plant", ticks, interrupt);
+        let mut inbox = Inbox::new(Clerk::new(requests, clock, CAPACITY)?);
+        let mut advisor = Advisor::new(clock);
 
-        let run = run_controller(&mut controller, &mut turns, &mut setpoints, &mut inbox, &mut record);
+        // Last: the other threads are not to keep to the loop's core.
+        let _granted = realtime::enter(&realtime.controller, clock, "controller");
+        let run = run_controller(
+            &mut controller,
+            &mut turns,
+            &mut setpoints,
+            &mut inbox,
+            &mut advisor,
+            &mut record,
+            realtime.hold_after_misses,
+        );
         let requests = inbox.close();
         drop(record);
         let log_gaps = record_end.finish()?;

@@ -1,5 +1,6 @@
 //! The commands, one per file.
 
+mod bench;
 mod check;
 mod controller;
 mod export;
@@ -20,7 +21,8 @@ use wire::{Instance, InstanceName};
 
 use crate::failure::{Failure, Outcome};
 use crate::process::end_with_parent;
-use crate::turns::{Clock, PERIOD};
+use crate::turns::Clock;
+use runtime::Rate;
 
 /// Walk a 20-joint biped from one nominal half-step, and bend it while it walks.
 #[derive(Debug, Parser)]
@@ -43,6 +45,7 @@ enum Command {
     Synthesize(synthesize::Synthesize),
     Paper(paper::Paper),
     Check(check::Check),
+    Bench(bench::Bench),
     Export(export::Export),
 }
 
@@ -62,6 +65,7 @@ impl Halfstep {
             Command::Synthesize(synthesize) => synthesize.run(json),
             Command::Paper(paper) => paper.run(json),
             Command::Check(check) => check.run(json),
+            Command::Bench(bench) => bench.run(json),
             Command::Export(export) => export.run(),
         }
     }
@@ -78,6 +82,10 @@ struct InstanceOption {
 impl InstanceOption {
     fn instance(&self) -> Result<Instance, Failure> {
         Ok(Instance::new(self.instance.as_str())?)
+    }
+
+    fn at_rate(&self, rate: Rate) -> Result<Instance, Failure> {
+        Ok(self.instance()?.with_rate_hz(rate.hz()))
     }
 }
 
@@ -96,8 +104,8 @@ struct LoopOptions {
 }
 
 impl LoopOptions {
-    fn ticks(&self) -> Option<u64> {
-        self.duration.map(|duration| (duration.as_secs_f64() / PERIOD.as_secs_f64()).round() as u64)
+    fn ticks(&self, rate: Rate) -> Option<u64> {
+        self.duration.map(|duration| rate.ticks(duration).max(1))
     }
 
     fn clock(&self) -> Clock {
@@ -122,9 +130,12 @@ impl PartOptions {
     }
 }
 
+/// The control period, if nobody chose another.
+const DURATION_MIN: Duration = Duration::from_millis(1);
+
 fn duration(text: &str) -> Result<Duration, String> {
     let duration = humantime::parse_duration(text).map_err(|error| format!("{error}; write e.g. 20s or 2min"))?;
-    if duration < PERIOD { Err("must be at least 1ms, one control period".to_owned()) } else { Ok(duration) }
+    if duration < DURATION_MIN { Err("must be at least 1ms, one control period".to_owned()) } else { Ok(duration) }
 }
 
 /// Prints a value for a program or for a person.

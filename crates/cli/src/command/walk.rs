@@ -21,8 +21,9 @@ use crate::progress::Progress;
 use crate::run_log::RunLog;
 use crate::script::{Reader, ScriptError, Step};
 use crate::summary::{ControllerSummary, PlantSummary, WalkSummary};
-use crate::turns::{Clock, PERIOD};
+use crate::turns::Clock;
 use crate::words;
+use runtime::Rate;
 
 /// Walk: controller and plant as two processes, commands from a script, a log and pictures
 #[derive(Clone, Debug, clap::Args)]
@@ -75,8 +76,10 @@ impl Walk {
         let robot = self.config.robot(&mut errors);
         self.config.controller(&mut errors);
         self.config.plant(&mut errors);
+        let realtime = self.config.realtime(&mut errors);
         ConfigOptions::disturbances(self.disturbances.as_deref(), &mut errors);
-        let steps = self.steps(&mut errors);
+        let rate = realtime.map(|realtime| realtime.rate).unwrap_or_default();
+        let steps = self.steps(rate, &mut errors);
         let (robot, mut steps) = errors.finish(robot.zip(steps))?;
         if self.runs.from_stand {
             let walk = Request { intent: Some(Intent::Walk), ..Request::by(Source::Script) };
@@ -91,11 +94,11 @@ impl Walk {
         }
         let folder = self.folder()?;
 
-        let mut walking = self.start(&instance, &folder, &steps)?;
-        walking.watch(Progress::new(self.runs.ticks()), &interrupt)?;
+        let mut walking = self.start(&instance, &folder, &steps, rate)?;
+        walking.watch(Progress::new(self.runs.ticks(rate), rate), &interrupt, rate)?;
         let (controller, plant) = walking.finish()?;
 
-        let summary = self.conclude(&robot, &instance, &folder, &controller, &plant)?;
+        let summary = self.conclude(&robot, rate, &instance, &folder, &controller, &plant)?;
         print(json, &summary)?;
         if !json {
             print_line(format_args!("log, summary.json and pictures are in {}", folder.display()))?;
@@ -104,7 +107,7 @@ impl Walk {
     }
 
     /// The script, as far as this walk gets.
-    fn steps(&self, errors: &mut Errors) -> Option<Vec<Step>> {
+    fn steps(&self, rate: Rate, errors: &mut Errors) -> Option<Vec<Step>> {
         let steps = match &self.commands {
             None => Reader::read_all("built-in commands", DEMO),
             Some(file) => {
@@ -113,7 +116,7 @@ impl Walk {
                 Reader::read_all(name, &text)
             }
         };
-        let is_reached = |step: &Step| self.runs.ticks().is_none_or(|ticks| step.tick() < ticks);
+        let is_reached = |step: &Step| self.runs.ticks(rate).is_none_or(|ticks| step.tick(rate) < ticks);
         match steps {
             Ok(steps) => Some(steps.into_iter().filter(is_reached).collect()),
             Err(wrong) => {
@@ -145,12 +148,12 @@ impl Walk {
 
     /// Starts the controller, asks it for everything that is to come, and only then starts the plant, which begins the
     /// walk: so every request is there in time.
-    fn start(&self, instance: &Instance, folder: &Path, steps: &[Step]) -> Result<Walking, Failure> {
+    fn start(&self, instance: &Instance, folder: &Path, steps: &[Step], rate: Rate) -> Result<Walking, Failure> {
         let leftovers = instance.leftovers();
         let mut controller = Process::start("controller", self.arguments(instance, folder))?;
         let operator = connect_operator(instance, &mut controller)?;
         let observer = ObserverEnd::connect(instance)?;
-        let mut operator = Operator::new(operator, steps);
+        let mut operator = Operator::new(operator, steps, rate);
         operator.send()?;
         let mut of_plant = self.arguments(instance, folder);
         of_plant.extend(["--end-when-fallen".into(), "--seed".into(), self.seed.to_string().into()]);
@@ -182,13 +185,14 @@ impl Walk {
     fn conclude(
         &self,
         robot: &Robot,
+        rate: Rate,
         instance: &Instance,
         folder: &Path,
         controller: &ControllerSummary,
         plant: &PlantSummary,
     ) -> Result<WalkSummary, Failure> {
         let log = RunLog::read(folder)?;
-        let duration_s = plant.ticks as f64 * PERIOD.as_secs_f64();
+        let duration_s = rate.time(plant.ticks);
         let summary = WalkSummary {
             measures: log.measures(&robot.mechanism),
             requests: controller.requests,
@@ -235,7 +239,7 @@ fn connect_operator(instance: &Instance, controller: &mut Process) -> Result<Ope
 
 impl Walking {
     /// Shows the walk until one of the processes ends, or this one is asked to.
-    fn watch(&mut self, progress: Progress, interrupt: &Interrupt) -> Result<(), Failure> {
+    fn watch(&mut self, progress: Progress, interrupt: &Interrupt, rate: Rate) -> Result<(), Failure> {
         while !(self.plant.has_ended()? || self.controller.has_ended()?) {
             if interrupt.is_raised() {
                 self.plant.end();
@@ -243,7 +247,7 @@ impl Walking {
                 break;
             }
             self.operator.send()?;
-            self.tell_objections(&progress);
+            self.tell_objections(&progress, rate);
             let mut newest = None;
             while let Some(report) = self.observer.reports.next_report()? {
                 newest = Some(report);
@@ -253,15 +257,15 @@ impl Walking {
             }
             std::thread::sleep(GLANCE);
         }
-        self.tell_objections(&progress);
+        self.tell_objections(&progress, rate);
         Ok(())
     }
 
     /// Says what was not granted as asked.
-    fn tell_objections(&mut self, progress: &Progress) {
+    fn tell_objections(&mut self, progress: &Progress, rate: Rate) {
         while let Some((request, reply)) = self.operator.next_reply() {
             if reply.verdict != Verdict::Accepted {
-                let time = request.not_before as f64 * PERIOD.as_secs_f64();
+                let time = rate.time(request.not_before);
                 progress.say(&format!("at {time:.2} s: {}", words::reply(&request, &reply)));
             }
         }

@@ -1,18 +1,18 @@
 //! Rows of the run's log, controller and plant → log.
 
 use controller::Mode;
+use runtime::Rate;
 
 use crate::exchange::report::{faults, mode};
 use crate::record::{ControllerEntry, PlantEntry};
 use crate::run_log::{ControllerRow, PlantRow};
-use crate::turns::PERIOD;
 
 /// What the controller has to tell of a tick, for the log.
-pub fn of_controller(entry: &ControllerEntry) -> ControllerRow {
+pub fn of_controller(entry: &ControllerEntry, rate: Rate) -> ControllerRow {
     let ControllerEntry { tick, compute_ns, late, missed, ref report, .. } = *entry;
     let is_planned = report.mode != Mode::Fallen;
     ControllerRow {
-        time: time(tick),
+        time: rate.time(tick),
         tick,
         mode: mode(report.mode).text().to_owned(),
         support: report.half_step.support,
@@ -37,10 +37,10 @@ pub fn of_controller(entry: &ControllerEntry) -> ControllerRow {
 }
 
 /// What the plant has to tell of a tick, for the log.
-pub fn of_plant(entry: &PlantEntry) -> PlantRow {
+pub fn of_plant(entry: &PlantEntry, rate: Rate) -> PlantRow {
     let PlantEntry { tick, angles, ref truth } = *entry;
     PlantRow {
-        time: time(tick),
+        time: rate.time(tick),
         tick,
         right_sole_to_world: truth.soles[0],
         angles,
@@ -50,9 +50,4 @@ pub fn of_plant(entry: &PlantEntry) -> PlantRow {
         trunk_tilt: truth.trunk_tilt,
         fallen: truth.has_fallen(),
     }
-}
-
-/// Since the start [s].
-fn time(tick: u64) -> f64 {
-    tick as f64 * PERIOD.as_secs_f64()
 }
