@@ -2,9 +2,10 @@
 
 use controller::{Asked, TickReport};
 use serde::{Deserialize, Serialize};
-use wire::{Answer, Granted, Reason, Reply, RequestMessage, RequestServer, Verdict};
+use wire::{Answer, Granted, Reason, Reply, ReplyMessage, RequestMessage, RequestServer, Verdict};
 
 use crate::exchange;
+use crate::record::{ControllerNews, Record};
 
 /// How many requests may wait for their tick.
 pub const CAPACITY: usize = 256;
@@ -16,6 +17,8 @@ pub struct Inbox {
     /// What a refused request is told to be in force.
     in_force: (u64, Granted),
     tally: Tally,
+    /// How many requests have come.
+    count: u32,
 }
 
 struct Waiting {
@@ -25,6 +28,8 @@ struct Waiting {
 
 /// A request whose tick has come. Its source is heard then, not when it was sent.
 pub struct Due {
+    /// Requests count from 1 in the order in which they came.
+    pub number: u32,
     /// What is asked.
     pub asked: Asked,
     answer: Answer,
@@ -45,26 +50,29 @@ impl Inbox {
     /// Empty, for the requests that come to `server`.
     pub fn new(server: RequestServer) -> Self {
         let granted = Granted { turn: 0.0, speed: 1.0, extension: 0.0, intent: None };
-        Self { server, waiting: heapless::Vec::new(), in_force: (0, granted), tally: Tally::default() }
+        Self { server, waiting: heapless::Vec::new(), in_force: (0, granted), tally: Tally::default(), count: 0 }
     }
 
     /// Takes in what has come, and refuses at once what cannot be granted whatever happens.
-    pub fn collect(&mut self) {
+    pub fn collect(&mut self, record: &mut Record<ControllerNews>) {
         // An operator whose memory cannot be reached has gone; the next look finds the others.
         while let Ok(Some((message, answer))) = self.server.next_request() {
-            self.take(&message, answer);
+            self.count += 1;
+            record.push(ControllerNews::Request(self.count, message));
+            self.take(&message, answer, record);
         }
     }
 
-    fn take(&mut self, message: &RequestMessage, answer: Answer) {
+    fn take(&mut self, message: &RequestMessage, answer: Answer, record: &mut Record<ControllerNews>) {
+        let number = self.count;
         let (not_before, asked) = match exchange::request::for_controller(message) {
             Ok(asked) => asked,
-            Err(reason) => return self.refuse(answer, reason),
+            Err(reason) => return self.refuse(number, answer, reason, record),
         };
         let place = self.waiting.partition_point(|waiting| waiting.not_before <= not_before);
-        let waiting = Waiting { not_before, due: Due { asked, answer } };
+        let waiting = Waiting { not_before, due: Due { number, asked, answer } };
         if let Err(waiting) = self.waiting.insert(place, waiting) {
-            self.refuse(waiting.due.answer, Reason::QueueFull);
+            self.refuse(number, waiting.due.answer, Reason::QueueFull, record);
         }
     }
 
@@ -75,7 +83,7 @@ impl Inbox {
     }
 
     /// Answers a request with what the tick made of it, and notes what is in force.
-    pub fn answer(&mut self, due: Option<Due>, report: &TickReport) {
+    pub fn answer(&mut self, due: Option<Due>, report: &TickReport, record: &mut Record<ControllerNews>) {
         let (half_step, granted) = &mut self.in_force;
         *half_step = report.half_step.index;
         granted.turn = report.command.turn;
@@ -88,24 +96,28 @@ impl Inbox {
                 self.tally.count(reply.verdict);
             }
             // Whether the operator is still there to hear it changes nothing.
-            due.answer.reply(&(&reply).into());
+            let message = ReplyMessage::from(&reply);
+            due.answer.reply(&message);
+            record.push(ControllerNews::Reply(due.number, message));
         }
     }
 
     /// Refuses what still waits, because the controller ends. Gives the tally of what was asked in time.
-    pub fn close(mut self) -> Tally {
+    pub fn close(mut self, record: &mut Record<ControllerNews>) -> Tally {
         let tally = self.tally;
-        self.collect();
-        while let Some(waiting) = self.waiting.pop() {
-            self.refuse(waiting.due.answer, Reason::ShuttingDown);
+        self.collect(record);
+        while let Some(Waiting { due, .. }) = self.waiting.pop() {
+            self.refuse(due.number, due.answer, Reason::ShuttingDown, record);
         }
         tally
     }
 
-    fn refuse(&mut self, answer: Answer, reason: Reason) {
+    fn refuse(&mut self, number: u32, answer: Answer, reason: Reason, record: &mut Record<ControllerNews>) {
         let (effect_half_step, granted) = self.in_force;
         self.tally.count(Verdict::Refused);
-        answer.reply(&(&Reply::refused(reason, effect_half_step, granted)).into());
+        let message = ReplyMessage::from(&Reply::refused(reason, effect_half_step, granted));
+        answer.reply(&message);
+        record.push(ControllerNews::Reply(number, message));
     }
 }
 

@@ -19,6 +19,7 @@ pub mod process;
 pub mod progress;
 pub mod python_messages;
 pub mod record;
+pub mod replay;
 pub mod run_controller;
 pub mod run_log;
 pub mod run_plant;

@@ -1,17 +1,19 @@
 //! `halfstep controller`: the process that walks.
 
-use gait::Start;
+use std::path::Path;
+
+use ::record::{Note, Origin};
 use wire::ControllerEnd;
 
 use super::{InstanceOption, LoopOptions, PartOptions, print};
-use crate::configuration::{ConfigOptions, Errors};
+use crate::configuration::{CONTROLLER, ConfigOptions, Errors};
 use crate::failure::{Failure, Outcome};
 use crate::inbox::Inbox;
 use crate::interrupt::Interrupt;
 use crate::record;
 use crate::run_controller::run_controller;
 use crate::summary::ControllerSummary;
-use crate::turns::{Clock, Turns};
+use crate::turns::Turns;
 
 /// Run the controller alone: it waits for its plant, then walks until it is asked otherwise
 #[derive(Clone, Debug, clap::Args)]
@@ -33,25 +35,18 @@ impl Controller {
 
         let mut errors = Errors::default();
         let loaded = self.config.robot(&mut errors).zip(self.config.controller(&mut errors));
-        let (robot, mut parameters) = errors.finish(loaded)?;
-        let clock = self.runs.clock();
-        if clock == Clock::Lockstep {
-            // Operators live by the clock on the wall, and half a second in lockstep is over in a few milliseconds.
-            parameters.sources.age_limit = None;
-        }
-        let fingerprint = robot.mechanism.fingerprint;
-        let begin = if self.runs.from_stand { controller::Controller::standing } else { controller::Controller::new };
-        let mut controller =
-            begin(&robot.mechanism, robot.nominal, &parameters, Start::default()).map_err(Failure::bad_input)?;
+        let (robot, parameters) = errors.finish(loaded)?;
+        let (clock, fingerprint) = (self.runs.clock(), robot.mechanism.fingerprint);
+        let mut controller = robot.controller(parameters, clock, self.runs.from_stand)?;
 
         let ControllerEnd { mut setpoints, measurements, requests, reports } =
             ControllerEnd::connect(&self.instance.instance()?, fingerprint)?;
-        let (mut record, record_end) = record::of_controller(clock, self.part.out.as_deref(), reports)?;
+        let (mut record, record_end) = record::of_controller(clock, self.recorded(fingerprint)?, reports)?;
         let mut turns = Turns::new(clock, measurements, "plant", self.runs.ticks(), interrupt);
         let mut inbox = Inbox::new(requests);
 
         let run = run_controller(&mut controller, &mut turns, &mut setpoints, &mut inbox, &mut record);
-        let requests = inbox.close();
+        let requests = inbox.close(&mut record);
         drop(record);
         let log_gaps = record_end.finish()?;
         let run = run.map_err(Failure::new)?;
@@ -66,5 +61,11 @@ impl Controller {
         };
         print(json, &summary)?;
         Ok(Outcome::fine_if(run.mode != Some(controller::Mode::Fallen)))
+    }
+    /// Where to record to, if anywhere, and what the run begins with.
+    fn recorded(&self, fingerprint: u64) -> Result<Option<(&Path, Origin)>, Failure> {
+        let Some(folder) = self.part.out.as_deref() else { return Ok(None) };
+        let how = Note::new("controller", self.runs.words(&self.instance, fingerprint));
+        Ok(Some((folder, Origin { notes: vec![how], files: self.config.texts(CONTROLLER)? })))
     }
 }

@@ -5,6 +5,8 @@ mod controller;
 mod export;
 mod paper;
 mod plant;
+mod plot;
+mod replay;
 mod send;
 mod stream;
 mod synthesize;
@@ -44,6 +46,8 @@ enum Command {
     Paper(paper::Paper),
     Check(check::Check),
     Export(export::Export),
+    Plot(plot::Plot),
+    Replay(replay::Replay),
 }
 
 impl Halfstep {
@@ -63,6 +67,8 @@ impl Halfstep {
             Command::Paper(paper) => paper.run(json),
             Command::Check(check) => check.run(json),
             Command::Export(export) => export.run(),
+            Command::Plot(plot) => plot.run(json),
+            Command::Replay(replay) => replay.run(json),
         }
     }
 }
@@ -105,10 +111,24 @@ impl LoopOptions {
     }
 }
 
+impl LoopOptions {
+    /// How a process of a pair was started, for its recording.
+    fn words(&self, instance: &InstanceOption, fingerprint: u64) -> [(&'static str, String); 6] {
+        [
+            ("version", env!("CARGO_PKG_VERSION").to_owned()),
+            ("protocol", wire::PROTOCOL.to_string()),
+            ("mechanism", format!("{fingerprint:#018x}")),
+            ("instance", instance.instance.to_string()),
+            ("clock", self.clock().text().to_owned()),
+            ("from_stand", self.from_stand.to_string()),
+        ]
+    }
+}
+
 /// What only the processes of a pair need.
 #[derive(Clone, Debug, Args)]
 struct PartOptions {
-    /// Write the log of the run into this folder
+    /// Record the run into this folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// The process that started this one, and with which it ends

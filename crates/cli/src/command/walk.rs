@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use ::record::{RUN_FILE, files_of, merge};
 use wire::{
     ConnectError, Instance, InstanceName, Intent, Leftovers, ObserverEnd, OperatorEnd, Request, Source, Verdict,
 };
@@ -21,10 +22,10 @@ use crate::progress::Progress;
 use crate::run_log::RunLog;
 use crate::script::{Reader, ScriptError, Step};
 use crate::summary::{ControllerSummary, PlantSummary, WalkSummary};
-use crate::turns::{Clock, PERIOD};
+use crate::turns::PERIOD;
 use crate::words;
 
-/// Walk: controller and plant as two processes, commands from a script, a log and pictures
+/// Walk: controller and plant as two processes, commands from a script, a recording and pictures
 #[derive(Clone, Debug, clap::Args)]
 pub struct Walk {
     #[command(flatten)]
@@ -34,7 +35,7 @@ pub struct Walk {
     /// Commands, one JSON object per line as for `stream`; a gentle mix is built in
     #[arg(long, value_name = "FILE")]
     commands: Option<PathBuf>,
-    /// Folder for log, summary and pictures; the next free one in runs/ if absent
+    /// Folder for recording, summary and pictures; the next free one in runs/ if absent
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Seed of the sensors' noise and of the errors of mass
@@ -98,7 +99,7 @@ impl Walk {
         let summary = self.conclude(&robot, &instance, &folder, &controller, &plant)?;
         print(json, &summary)?;
         if !json {
-            print_line(format_args!("log, summary.json and pictures are in {}", folder.display()))?;
+            print_line(format_args!("run.mcap, summary.json and pictures are in {}", folder.display()))?;
         }
         Ok(Outcome::fine_if(summary.measures.falls == 0))
     }
@@ -187,7 +188,12 @@ impl Walk {
         controller: &ControllerSummary,
         plant: &PlantSummary,
     ) -> Result<WalkSummary, Failure> {
-        let log = RunLog::read(folder)?;
+        let parts = files_of(folder)?;
+        let whole = folder.join(RUN_FILE);
+        merge(&parts, &whole)?;
+        // They hold nothing more.
+        parts.iter().for_each(|part| drop(fs::remove_file(part)));
+        let log = RunLog::read(&whole)?;
         let duration_s = plant.ticks as f64 * PERIOD.as_secs_f64();
         let summary = WalkSummary {
             measures: log.measures(&robot.mechanism),
@@ -196,10 +202,7 @@ impl Walk {
             seed: self.seed,
             plant: self.plant.name(),
             instance: instance.name().to_string(),
-            clock: match self.runs.clock() {
-                Clock::Realtime => "realtime",
-                Clock::Lockstep => "lockstep",
-            },
+            clock: self.runs.clock().text(),
             deadline_misses: controller.deadline_misses + plant.deadline_misses,
             log_gaps: controller.log_gaps + plant.log_gaps,
             real_time_factor: if plant.wall_s > 0.0 { duration_s / plant.wall_s } else { 0.0 },
@@ -207,16 +210,7 @@ impl Walk {
         let text = serde_json::to_string_pretty(&summary).map_err(Failure::new)?;
         let file = folder.join("summary.json");
         fs::write(&file, text + "\n").map_err(|error| Failure::new(format!("{}: {error}", file.display())))?;
-        let pictures = [
-            ("footprints.svg", picture::footprints(&log, &robot.mechanism)),
-            ("balance_over_time.svg", picture::balance_over_time(&log, &robot.mechanism)),
-            ("margin_over_time.svg", picture::margin_over_time(&log, &robot.mechanism)),
-            ("compensation_over_time.svg", picture::compensation_over_time(&log, &robot.mechanism)),
-            ("zmp_over_time.svg", picture::zmp_over_time(&log, &robot.mechanism)),
-            ("zmp_in_sole.svg", picture::zmp_in_sole(&log, &robot.mechanism)),
-            ("stick_walk.svg", picture::stick_walk(&log, &robot.mechanism)),
-        ];
-        write_pictures(folder, &pictures)?;
+        write_pictures(folder, &picture::of_run(&log, &robot.mechanism))?;
         Ok(summary)
     }
 }
