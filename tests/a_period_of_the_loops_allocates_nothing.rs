@@ -98,7 +98,7 @@ fn walk(ticks: u64) -> [Happened; 2] {
                 );
                 run.unwrap().ticks
             });
-            inbox.close();
+            inbox.close(&mut record);
             drop(record);
             record_end.finish().unwrap();
             happened

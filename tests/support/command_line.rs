@@ -75,6 +75,13 @@ impl CommandLine {
         fs::read_to_string(self.folder().join(file)).unwrap_or_else(|error| panic!("{file}: {error}"))
     }
 
+    /// What was recorded of a run in the folder as a table: `plant` or `controller`.
+    pub fn csv(&self, run: &str, table: &str) -> String {
+        let ended = self.run(&format!("plot {run} --csv"));
+        assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+        self.read(&format!("{run}/{table}.csv"))
+    }
+
     /// Replaces `from`, which must be there, by `to` in a file of the folder.
     pub fn edit(&self, file: &str, from: &str, to: &str) {
         let text = self.read(file);

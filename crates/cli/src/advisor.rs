@@ -42,23 +42,23 @@ impl Advisor {
         Advisor::Beside { open: Some(open), settled, thread: Some(thread) }
     }
 
-    /// Takes what is to be settled and gives back what is. Waits for nothing beside the loop.
-    pub fn serve(&mut self, controller: &mut Controller) {
+    /// Takes what is to be settled and gives back what is; says whether it gave something back. Waits for nothing beside
+    /// the loop.
+    pub fn serve(&mut self, controller: &mut Controller) -> bool {
         match self {
             Advisor::Here => {
-                if let Some(mut inquiry) = controller.inquiry() {
-                    inquiry.settle();
-                    controller.give_back(inquiry);
-                }
+                let Some(mut inquiry) = controller.inquiry() else { return false };
+                inquiry.settle();
+                controller.give_back(inquiry);
+                true
             }
             Advisor::Beside { open, settled, .. } => {
-                if let Ok(inquiry) = settled.try_recv() {
-                    controller.give_back(inquiry);
-                }
+                let given_back = settled.try_recv().map(|inquiry| controller.give_back(inquiry)).is_ok();
                 // There is one inquiry at most, so there is room for it.
                 if let (Some(open), Some(inquiry)) = (open, controller.inquiry()) {
                     let _ = open.try_send(inquiry);
                 }
+                given_back
             }
         }
     }

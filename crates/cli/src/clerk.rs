@@ -9,11 +9,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use controller::Asked;
 use crossbeam::queue::ArrayQueue;
-use wire::{Answer, Reason, Reply, RequestServer};
+use wire::{Answer, ReplyMessage, RequestMessage, RequestServer};
 
-use crate::exchange;
 use crate::failure::Failure;
 use crate::turns::Clock;
 
@@ -22,13 +20,13 @@ use crate::turns::Clock;
 pub struct Letter {
     /// By which its reply finds the way back.
     pub id: LetterId,
-    /// The tick before which it must not take effect, and what is asked; or why it cannot be understood.
-    pub asked: Result<(u64, Asked), Reason>,
+    /// What the operator wrote.
+    pub message: RequestMessage,
 }
 
 /// Which letter it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct LetterId(u64);
+pub struct LetterId(u32);
 
 /// What the loop writes to, and hears from.
 pub enum Clerk {
@@ -47,14 +45,14 @@ pub enum Clerk {
 pub struct Counter {
     server: RequestServer,
     open: HashMap<LetterId, Answer>,
-    next: u64,
+    last: LetterId,
 }
 
 /// What lies between the loop and the thread.
 #[derive(Debug)]
 pub struct Trays {
     letters: ArrayQueue<Letter>,
-    replies: ArrayQueue<(LetterId, Reply)>,
+    replies: ArrayQueue<(LetterId, ReplyMessage)>,
     closed: AtomicBool,
 }
 
@@ -63,13 +61,23 @@ const LETTERS: usize = 8;
 /// How long the thread sleeps when there is nothing to do: a fraction of a period.
 const NAP: Duration = Duration::from_micros(100);
 
+impl LetterId {
+    /// What the loop asks by itself: no letter, and answered to nobody.
+    pub const LOOP: Self = Self(u32::MAX);
+
+    /// Letters count from 1 in the order in which they came.
+    pub const fn number(self) -> u32 {
+        self.0
+    }
+}
+
 impl Clerk {
     /// For a clock; of no more than `unanswered` letters the reply will be outstanding at a time.
     ///
     /// # Errors
     /// The system refuses another thread.
     pub fn new(server: RequestServer, clock: Clock, unanswered: usize) -> Result<Self, Failure> {
-        let mut counter = Counter { server, open: HashMap::new(), next: 0 };
+        let mut counter = Counter { server, open: HashMap::new(), last: LetterId(0) };
         if clock == Clock::Lockstep {
             return Ok(Clerk::Here(counter));
         }
@@ -98,7 +106,7 @@ impl Clerk {
     }
 
     /// Sends the reply to a letter.
-    pub fn reply(&mut self, id: LetterId, reply: Reply) {
+    pub fn reply(&mut self, id: LetterId, reply: ReplyMessage) {
         match self {
             Clerk::Here(counter) => counter.reply(id, &reply),
             // There is room for as many as can be outstanding.
@@ -124,17 +132,17 @@ impl Counter {
     pub fn next_letter(&mut self) -> Option<Letter> {
         // An operator whose memory cannot be reached has gone; the next look finds the others.
         let (message, answer) = self.server.next_request().ok().flatten()?;
-        let id = LetterId(self.next);
-        self.next += 1;
+        let id = LetterId(self.last.0 + 1);
+        self.last = id;
         self.open.insert(id, answer);
-        Some(Letter { id, asked: exchange::request::for_controller(&message) })
+        Some(Letter { id, message })
     }
 
     /// Sends the reply to a letter.
-    pub fn reply(&mut self, id: LetterId, reply: &Reply) {
+    pub fn reply(&mut self, id: LetterId, reply: &ReplyMessage) {
         if let Some(answer) = self.open.remove(&id) {
             // Whether the operator is still there to hear it changes nothing.
-            answer.reply(&reply.into());
+            answer.reply(reply);
         }
     }
 

@@ -2,10 +2,11 @@
 
 use controller::{Asked, TickReport};
 use serde::{Deserialize, Serialize};
-use wire::{Granted, Reason, Reply, Verdict};
+use wire::{Granted, Reason, Reply, ReplyMessage, Verdict};
 
 use crate::clerk::{Clerk, Letter, LetterId};
 use crate::exchange;
+use crate::record::{ControllerNews, Record};
 
 /// How many requests may wait for their tick.
 pub const CAPACITY: usize = 256;
@@ -26,9 +27,10 @@ struct Waiting {
 
 /// A request whose tick has come. Its source is heard then, not when it was sent.
 pub struct Due {
+    /// Which letter asks.
+    pub id: LetterId,
     /// What is asked.
     pub asked: Asked,
-    id: LetterId,
 }
 
 /// How many requests were answered how. A stream's signs of life are none.
@@ -50,20 +52,21 @@ impl Inbox {
     }
 
     /// Takes in what has come, and refuses at once what cannot be granted whatever happens.
-    pub fn collect(&mut self) {
+    pub fn collect(&mut self, record: &mut Record<ControllerNews>) {
         while let Some(letter) = self.clerk.next_letter() {
-            self.take(letter);
+            record.push(letter.news());
+            self.take(letter, record);
         }
     }
 
-    fn take(&mut self, Letter { id, asked }: Letter) {
-        let (not_before, asked) = match asked {
+    fn take(&mut self, Letter { id, message }: Letter, record: &mut Record<ControllerNews>) {
+        let (not_before, asked) = match exchange::request::for_controller(&message) {
             Ok(asked) => asked,
-            Err(reason) => return self.refuse(id, reason),
+            Err(reason) => return self.refuse(id, reason, record),
         };
         let place = self.waiting.partition_point(|waiting| waiting.not_before <= not_before);
-        if self.waiting.insert(place, Waiting { not_before, due: Due { asked, id } }).is_err() {
-            self.refuse(id, Reason::QueueFull);
+        if self.waiting.insert(place, Waiting { not_before, due: Due { id, asked } }).is_err() {
+            self.refuse(id, Reason::QueueFull, record);
         }
     }
 
@@ -74,7 +77,7 @@ impl Inbox {
     }
 
     /// Answers a request with what the tick made of it, and notes what is in force.
-    pub fn answer(&mut self, due: Option<Due>, report: &TickReport) {
+    pub fn answer(&mut self, due: Option<Due>, report: &TickReport, record: &mut Record<ControllerNews>) {
         let (half_step, granted) = &mut self.in_force;
         *half_step = report.half_step.index;
         granted.turn = report.command.turn;
@@ -86,27 +89,44 @@ impl Inbox {
             if !due.asked.is_empty() {
                 self.tally.count(reply.verdict);
             }
-            self.clerk.reply(due.id, reply);
+            self.reply(due.id, &reply, record);
         }
     }
 
     /// Refuses what still waits, because the controller ends. Gives the tally of what was asked in time.
-    pub fn close(self) -> Tally {
+    pub fn close(self, record: &mut Record<ControllerNews>) -> Tally {
         let (effect_half_step, granted) = self.in_force;
-        let refusal = Reply::refused(Reason::ShuttingDown, effect_half_step, granted);
+        let refusal = ReplyMessage::from(&Reply::refused(Reason::ShuttingDown, effect_half_step, granted));
         let (mut counter, unread) = self.clerk.close();
-        let ids = self.waiting.iter().map(|waiting| waiting.due.id).chain(unread.iter().map(|letter| letter.id));
-        ids.for_each(|id| counter.reply(id, &refusal));
-        while let Some(letter) = counter.next_letter() {
-            counter.reply(letter.id, &refusal);
+        let mut unread = unread.into_iter();
+        let mut refused: Vec<LetterId> = self.waiting.iter().map(|waiting| waiting.due.id).collect();
+        while let Some(letter) = unread.next().or_else(|| counter.next_letter()) {
+            record.push(letter.news());
+            refused.push(letter.id);
+        }
+        for id in refused {
+            counter.reply(id, &refusal);
+            record.push(ControllerNews::Reply(id.number(), refusal));
         }
         self.tally
     }
 
-    fn refuse(&mut self, id: LetterId, reason: Reason) {
+    fn refuse(&mut self, id: LetterId, reason: Reason, record: &mut Record<ControllerNews>) {
         let (effect_half_step, granted) = self.in_force;
         self.tally.count(Verdict::Refused);
-        self.clerk.reply(id, Reply::refused(reason, effect_half_step, granted));
+        self.reply(id, &Reply::refused(reason, effect_half_step, granted), record);
+    }
+
+    fn reply(&mut self, id: LetterId, reply: &Reply, record: &mut Record<ControllerNews>) {
+        let message = ReplyMessage::from(reply);
+        self.clerk.reply(id, message);
+        record.push(ControllerNews::Reply(id.number(), message));
+    }
+}
+
+impl Letter {
+    fn news(&self) -> ControllerNews {
+        ControllerNews::Request(self.id.number(), self.message)
     }
 }
 

@@ -24,6 +24,7 @@ pub mod progress;
 pub mod python_messages;
 pub mod realtime;
 pub mod record;
+pub mod replay;
 pub mod run_controller;
 pub mod run_log;
 pub mod run_plant;

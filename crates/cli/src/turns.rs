@@ -91,6 +91,16 @@ pub struct PeerSilent {
     pub heard: Option<u64>,
 }
 
+impl Clock {
+    /// In a word.
+    pub const fn text(self) -> &'static str {
+        match self {
+            Clock::Realtime => "realtime",
+            Clock::Lockstep => "lockstep",
+        }
+    }
+}
+
 impl<M: Newest> Turns<M> {
     /// Turns that come from the `peer`'s messages; at most `ticks` periods, or without end.
     pub fn new(

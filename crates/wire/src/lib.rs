@@ -60,7 +60,9 @@ mod turn;
 pub use end::{ControllerEnd, ObserverEnd, OperatorEnd, PlantEnd};
 pub use error::{AskError, ConnectError, WireFault};
 pub use instance::{Instance, InstanceName, Leftovers};
-pub use layout::{Field, Layout, Number, layouts};
+#[doc(hidden)]
+pub use layout::kind;
+pub use layout::{Field, FieldValue, LaidOut, Layout, Number, layouts};
 pub use message::*;
 pub use newest::{NEWEST_SLOTS, NewestReader, NewestWriter};
 pub use report::{ReportPublisher, ReportSubscriber};

@@ -6,6 +6,8 @@ mod controller;
 mod export;
 mod paper;
 mod plant;
+mod plot;
+mod replay;
 mod send;
 mod stream;
 mod synthesize;
@@ -16,13 +18,13 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
+use runtime::Rate;
 use serde::Serialize;
 use wire::{Instance, InstanceName};
 
 use crate::failure::{Failure, Outcome};
 use crate::process::end_with_parent;
 use crate::turns::Clock;
-use runtime::Rate;
 
 /// Walk a 20-joint biped from one nominal half-step, and bend it while it walks.
 #[derive(Debug, Parser)]
@@ -47,6 +49,8 @@ enum Command {
     Check(check::Check),
     Bench(bench::Bench),
     Export(export::Export),
+    Plot(plot::Plot),
+    Replay(replay::Replay),
 }
 
 impl Halfstep {
@@ -67,6 +71,8 @@ impl Halfstep {
             Command::Check(check) => check.run(json),
             Command::Bench(bench) => bench.run(json),
             Command::Export(export) => export.run(),
+            Command::Plot(plot) => plot.run(json),
+            Command::Replay(replay) => replay.run(json),
         }
     }
 }
@@ -111,12 +117,25 @@ impl LoopOptions {
     fn clock(&self) -> Clock {
         if self.lockstep { Clock::Lockstep } else { Clock::Realtime }
     }
+
+    /// How a process of a pair was started, for its recording.
+    fn words(&self, instance: &InstanceOption, rate: Rate, fingerprint: u64) -> [(&'static str, String); 7] {
+        [
+            ("version", env!("CARGO_PKG_VERSION").to_owned()),
+            ("protocol", wire::PROTOCOL.to_string()),
+            ("mechanism", format!("{fingerprint:#018x}")),
+            ("instance", instance.instance.to_string()),
+            ("clock", self.clock().text().to_owned()),
+            ("rate_hz", rate.hz().to_string()),
+            ("from_stand", self.from_stand.to_string()),
+        ]
+    }
 }
 
 /// What only the processes of a pair need.
 #[derive(Clone, Debug, Args)]
 struct PartOptions {
-    /// Write the log of the run into this folder
+    /// Record the run into this folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// The process that started this one, and with which it ends

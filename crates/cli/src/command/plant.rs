@@ -1,15 +1,17 @@
 //! `halfstep plant`: the process that is the robot.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use ::record::{Note, Origin};
 use balance::Preview;
 use gait::{Start, Walk};
 use model::Motion;
 use plant::Setpoint;
+use runtime::Rate;
 use wire::PlantEnd;
 
 use super::{InstanceOption, LoopOptions, PartOptions, print};
-use crate::configuration::{ConfigOptions, Errors, Robot};
+use crate::configuration::{ConfigOptions, DISTURBANCES, Errors, PLANT, Robot, read};
 use crate::engine::{self, Engine, OutsideEngine, Setup};
 use crate::failure::{Failure, Outcome};
 use crate::interrupt::Interrupt;
@@ -69,7 +71,8 @@ impl Plant {
         let PlantEnd { setpoints, mut measurements } =
             PlantEnd::connect(&self.instance.at_rate(realtime.rate)?, robot.mechanism.fingerprint)?;
         let clock = self.runs.clock();
-        let (mut record, record_end) = record::of_plant(clock, realtime.rate, self.part.out.as_deref())?;
+        let to = self.recorded(realtime.rate, robot.mechanism.fingerprint)?;
+        let (mut record, record_end) = record::of_plant(clock, realtime.rate, to)?;
         let ticks = self.runs.ticks(realtime.rate);
         let mut turns = Turns::new(realtime.pace(clock), setpoints, "controller", ticks, interrupt);
 
@@ -95,6 +98,19 @@ impl Plant {
         };
         print(json, &summary)?;
         Ok(Outcome::fine_if(run.fell_at.is_none()))
+    }
+
+    /// Where to record to, if anywhere, and what the run begins with.
+    fn recorded(&self, rate: Rate, fingerprint: u64) -> Result<Option<(&Path, Origin)>, Failure> {
+        let Some(folder) = self.part.out.as_deref() else { return Ok(None) };
+        let mut files = self.config.texts(PLANT)?;
+        if let Some(file) = &self.disturbances {
+            files.push((DISTURBANCES.to_owned(), read(file)?));
+        }
+        let mut how = Note::new("plant", self.runs.words(&self.instance, rate, fingerprint));
+        how.words.insert("seed".to_owned(), self.seed.to_string());
+        how.words.insert("engine".to_owned(), self.engine.name().to_owned());
+        Ok(Some((folder, Origin { notes: vec![how], files })))
     }
 
     /// The posture at which the controller begins, too.

@@ -5,6 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use ::record::{RUN_FILE, files_of, merge};
+use runtime::Rate;
 use wire::{
     ConnectError, Instance, InstanceName, Intent, Leftovers, ObserverEnd, OperatorEnd, Request, Source, Verdict,
 };
@@ -21,11 +23,9 @@ use crate::progress::Progress;
 use crate::run_log::RunLog;
 use crate::script::{Reader, ScriptError, Step};
 use crate::summary::{ControllerSummary, PlantSummary, WalkSummary};
-use crate::turns::Clock;
 use crate::words;
-use runtime::Rate;
 
-/// Walk: controller and plant as two processes, commands from a script, a log and pictures
+/// Walk: controller and plant as two processes, commands from a script, a recording and pictures
 #[derive(Clone, Debug, clap::Args)]
 pub struct Walk {
     #[command(flatten)]
@@ -35,7 +35,7 @@ pub struct Walk {
     /// Commands, one JSON object per line as for `stream`; a gentle mix is built in
     #[arg(long, value_name = "FILE")]
     commands: Option<PathBuf>,
-    /// Folder for log, summary and pictures; the next free one in runs/ if absent
+    /// Folder for recording, summary and pictures; the next free one in runs/ if absent
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Seed of the sensors' noise and of the errors of mass
@@ -101,7 +101,7 @@ impl Walk {
         let summary = self.conclude(&robot, rate, &instance, &folder, &controller, &plant)?;
         print(json, &summary)?;
         if !json {
-            print_line(format_args!("log, summary.json and pictures are in {}", folder.display()))?;
+            print_line(format_args!("run.mcap, summary.json and pictures are in {}", folder.display()))?;
         }
         Ok(Outcome::fine_if(summary.measures.falls == 0))
     }
@@ -191,7 +191,12 @@ impl Walk {
         controller: &ControllerSummary,
         plant: &PlantSummary,
     ) -> Result<WalkSummary, Failure> {
-        let log = RunLog::read(folder)?;
+        let parts = files_of(folder)?;
+        let whole = folder.join(RUN_FILE);
+        merge(&parts, &whole)?;
+        // They hold nothing more.
+        parts.iter().for_each(|part| drop(fs::remove_file(part)));
+        let log = RunLog::read(&whole)?;
         let duration_s = rate.time(plant.ticks);
         let summary = WalkSummary {
             measures: log.measures(&robot.mechanism),
@@ -200,10 +205,7 @@ impl Walk {
             seed: self.seed,
             plant: self.plant.name(),
             instance: instance.name().to_string(),
-            clock: match self.runs.clock() {
-                Clock::Realtime => "realtime",
-                Clock::Lockstep => "lockstep",
-            },
+            clock: self.runs.clock().text(),
             deadline_misses: controller.deadline_misses + plant.deadline_misses,
             log_gaps: controller.log_gaps + plant.log_gaps,
             real_time_factor: if plant.wall_s > 0.0 { duration_s / plant.wall_s } else { 0.0 },
@@ -211,16 +213,7 @@ impl Walk {
         let text = serde_json::to_string_pretty(&summary).map_err(Failure::new)?;
         let file = folder.join("summary.json");
         fs::write(&file, text + "\n").map_err(|error| Failure::new(format!("{}: {error}", file.display())))?;
-        let pictures = [
-            ("footprints.svg", picture::footprints(&log, &robot.mechanism)),
-            ("balance_over_time.svg", picture::balance_over_time(&log, &robot.mechanism)),
-            ("margin_over_time.svg", picture::margin_over_time(&log, &robot.mechanism)),
-            ("compensation_over_time.svg", picture::compensation_over_time(&log, &robot.mechanism)),
-            ("zmp_over_time.svg", picture::zmp_over_time(&log, &robot.mechanism)),
-            ("zmp_in_sole.svg", picture::zmp_in_sole(&log, &robot.mechanism)),
-            ("stick_walk.svg", picture::stick_walk(&log, &robot.mechanism)),
-        ];
-        write_pictures(folder, &pictures)?;
+        write_pictures(folder, &picture::of_run(&log, &robot.mechanism))?;
         Ok(summary)
     }
 }
