@@ -30,7 +30,7 @@ fn pulled(pull: f64, friction: f64) -> (f64, [f64; 2]) {
             origin: Vector3::zeros(),
             velocity: Vector6::new(0.0, 0.0, 0.0, velocity.x, velocity.y, velocity.z),
         };
-        let load = foot.press(&motion, position.z, &parameters, STEP);
+        let load = foot.press(&motion, &position, |_| 0.0, &parameters, STEP);
         let force = load.wrench.force + Vector3::new(pull * mass * gravity, 0.0, -mass * gravity);
         let inertia = Matrix3::from_diagonal_element(mass) + load.added_inertia.fixed_view::<3, 3>(3, 3);
         velocity += inertia.lu().solve(&force).expect("a mass can be moved") * STEP;

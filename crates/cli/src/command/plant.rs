@@ -62,7 +62,8 @@ impl Plant {
         let mut outside = match self.engine {
             Engine::Rust => None,
             Engine::Mujoco => {
-                let setup = Setup::new(&robot.mechanism, &parameters, &disturbances, &start, self.seed, period);
+                let setup = Setup::new(&robot.mechanism, &parameters, &disturbances, &start, self.seed, period)
+                    .map_err(Failure::new)?;
                 Some(OutsideEngine::start(engine::mujoco()?, &setup).map_err(Failure::new)?)
             }
         };

@@ -85,6 +85,12 @@ pub enum EngineError {
         /// What the system says.
         cause: std::io::Error,
     },
+    /// It knows even floors only.
+    #[error("unevenness.height_m is {height}: other engines know even floors only, 0 would be right")]
+    Uneven {
+        /// What was asked for [m].
+        height: f64,
+    },
     /// It went away.
     #[error("the engine has ended: {0}")]
     Ended(std::io::Error),
@@ -103,6 +109,9 @@ pub enum EngineError {
 
 impl Setup {
     /// The robot as the plant's parameters, start and seed make it.
+    ///
+    /// # Errors
+    /// [`EngineError::Uneven`].
     pub fn new(
         mechanism: &Mechanism,
         parameters: &Parameters,
@@ -110,12 +119,15 @@ impl Setup {
         start: &Motion,
         seed: u64,
         period: f64,
-    ) -> Self {
+    ) -> Result<Self, EngineError> {
+        if parameters.unevenness.height > 0.0 {
+            return Err(EngineError::Uneven { height: parameters.unevenness.height });
+        }
         let built = with_mass_error(mechanism, parameters.mass_error, seed);
         let motors = || Joint::ALL.into_iter().filter_map(|joint| Some((joint, mechanism.links[joint].motor?)));
         let robot = RobotState::on_right_foot(start, 0.0);
         let orientation = robot.sole_to_world.rotation;
-        Self {
+        Ok(Self {
             protocol: PROTOCOL,
             mjcf: mjcf_text(&built, parameters, period),
             period_s: period,
@@ -142,7 +154,7 @@ impl Setup {
                     duration: push.duration,
                 })
                 .collect(),
-        }
+        })
     }
 }
 
