@@ -84,8 +84,8 @@ fn walk(ticks: u64) -> [Happened; 2] {
             let mut controller = Controller::new(mechanism, table, &parameters, Start::default()).unwrap();
             let (mut record, record_end) = record::of_controller(pace.clock, pace.rate, None, reports).unwrap();
             let mut turns = Turns::new(pace, measurements, "plant", Some(ticks), Interrupt::default());
-            let mut inbox = Inbox::new(Clerk::new(requests, pace.clock, CAPACITY).unwrap());
-            let mut advisor = Advisor::new(pace.clock);
+            let mut inbox = Inbox::new(Clerk::new(requests, pace.clock, CAPACITY, Scheduling::default()).unwrap());
+            let mut advisor = Advisor::new(pace.clock, Scheduling::default());
             let happened = watch(|| {
                 let run = run_controller(
                     &mut controller,

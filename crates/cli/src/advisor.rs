@@ -5,6 +5,7 @@ use std::thread::JoinHandle;
 
 use controller::{Controller, Inquiry};
 use crossbeam::channel::{Receiver, Sender, bounded};
+use runtime::Scheduling;
 
 use crate::turns::Clock;
 
@@ -24,14 +25,15 @@ pub enum Advisor {
 }
 
 impl Advisor {
-    /// For a clock.
-    pub fn new(clock: Clock) -> Self {
+    /// For a clock. A thread asks the system for `scheduling`, and does with what it gets.
+    pub fn new(clock: Clock, scheduling: Scheduling) -> Self {
         if clock == Clock::Lockstep {
             return Advisor::Here;
         }
         let (open, inbox) = bounded::<Box<Inquiry>>(1);
         let (outbox, settled) = bounded(1);
         let thread = std::thread::spawn(move || {
+            let _granted = scheduling.ask();
             for mut inquiry in inbox {
                 inquiry.settle();
                 if outbox.send(inquiry).is_err() {

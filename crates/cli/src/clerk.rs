@@ -10,6 +10,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use crossbeam::queue::ArrayQueue;
+use runtime::Scheduling;
 use wire::{Answer, ReplyMessage, RequestMessage, RequestServer};
 
 use crate::failure::Failure;
@@ -72,11 +73,17 @@ impl LetterId {
 }
 
 impl Clerk {
-    /// For a clock; of no more than `unanswered` letters the reply will be outstanding at a time.
+    /// For a clock; of no more than `unanswered` letters the reply will be outstanding at a time. A thread asks the system
+    /// for `scheduling`, and does with what it gets.
     ///
     /// # Errors
     /// The system refuses another thread.
-    pub fn new(server: RequestServer, clock: Clock, unanswered: usize) -> Result<Self, Failure> {
+    pub fn new(
+        server: RequestServer,
+        clock: Clock,
+        unanswered: usize,
+        scheduling: Scheduling,
+    ) -> Result<Self, Failure> {
         let mut counter = Counter { server, open: HashMap::new(), last: LetterId(0) };
         if clock == Clock::Lockstep {
             return Ok(Clerk::Here(counter));
@@ -90,6 +97,7 @@ impl Clerk {
         let thread = std::thread::Builder::new()
             .name("clerk".to_owned())
             .spawn(move || {
+                let _granted = scheduling.ask();
                 counter.serve(&shared);
                 counter
             })

@@ -55,6 +55,13 @@ const PAGE: usize = 4096;
 const LATENCY_FILE: &str = "/dev/cpu_dma_latency";
 
 impl Scheduling {
+    /// What a thread asks for that works for a loop which asks for this: `steps` less of priority, an ordinary thread where
+    /// there is no room for that. The loop has seen to memory and sleep, and keeps its core to itself.
+    pub fn below(&self, steps: u8) -> Self {
+        let priority = self.priority.and_then(|priority| priority.checked_sub(steps)).filter(|priority| *priority > 0);
+        Self { priority, ..Self::default() }
+    }
+
     /// Asks for all of it, for the calling thread. Other threads are best started before: they would inherit the core.
     pub fn ask(&self) -> Granted {
         let mut refused = Vec::new();
@@ -142,6 +149,14 @@ mod tests {
         assert!(refused[0].to_string().contains("choose a core of this machine"));
         let denied = Refusal::Priority(80, io::ErrorKind::PermissionDenied.into()).to_string();
         assert!(denied.contains("cap_sys_nice") && denied.contains("rtprio"), "{denied}");
+    }
+
+    #[test]
+    fn who_works_for_a_loop_never_comes_before_it() {
+        let of_loop = |priority| Scheduling { priority, core: Some(1), lock_memory: true, keep_awake: true };
+        for (loops, below) in [(Some(80), Some(78)), (Some(2), None), (Some(1), None), (None, None)] {
+            assert_eq!(of_loop(loops).below(2), Scheduling { priority: below, ..Scheduling::default() });
+        }
     }
 
     #[test]

@@ -32,6 +32,11 @@ pub struct Controller {
     part: PartOptions,
 }
 
+/// How far the threads beside the loop are below it in priority: above every ordinary thread, or requests would wait for
+/// whatever else the machine does; and a forecast takes long beside carrying a letter.
+const CLERK_BELOW: u8 = 1;
+const ADVISOR_BELOW: u8 = 2;
+
 impl Controller {
     pub fn run(self, json: bool) -> Result<Outcome, Failure> {
         self.part.bind()?;
@@ -48,8 +53,8 @@ impl Controller {
             ControllerEnd::connect(&self.instance.at_rate(rate)?, fingerprint)?;
         let (mut record, record_end) = record::of_controller(clock, rate, self.recorded(rate, fingerprint)?, reports)?;
         let mut turns = Turns::new(realtime.pace(clock), measurements, "plant", self.runs.ticks(rate), interrupt);
-        let mut inbox = Inbox::new(Clerk::new(requests, clock, CAPACITY)?);
-        let mut advisor = Advisor::new(clock);
+        let mut inbox = Inbox::new(Clerk::new(requests, clock, CAPACITY, realtime.controller.below(CLERK_BELOW))?);
+        let mut advisor = Advisor::new(clock, realtime.controller.below(ADVISOR_BELOW));
 
         // Last: the other threads are not to keep to the loop's core.
         let _granted = realtime::enter(&realtime.controller, clock, "controller");
