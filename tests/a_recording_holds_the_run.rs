@@ -38,11 +38,11 @@ fn everything_is_there() {
     let (events, origin) = read(&command_line, "run/run.mcap");
 
     // The files, byte for byte, and how it was started.
-    for file in ["mechanism.toml", "nominal_half_step.csv", "controller.toml", "plant.toml"] {
+    for file in ["mechanism.toml", "nominal_half_step.csv", "controller.toml", "plant.toml", "realtime.toml"] {
         assert!(origin.file(file) == Some(&command_line.read(&format!("config/{file}"))), "{file}");
     }
     assert_eq!(origin.file("disturbances.toml"), Some(FAULTS));
-    assert_eq!(origin.files.len(), 5, "each of them once");
+    assert_eq!(origin.files.len(), 6, "each of them once");
     assert_eq!((origin.word("plant", "seed"), origin.word("controller", "clock")), (Some("7"), Some("lockstep")));
     assert_eq!(origin.word("controller", "version"), Some(env!("CARGO_PKG_VERSION")));
     assert_eq!(origin.word("controller end", "lost"), Some("0"));
