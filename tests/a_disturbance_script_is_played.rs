@@ -99,7 +99,7 @@ fn two_processes_are_disturbed_alike() {
         let summary: Value = serde_json::from_str(&ended.stdout).unwrap_or_else(|_| panic!("{}", ended.stderr));
         (ended.code, summary["falls"].as_u64().unwrap())
     };
-    let log = |folder: &str, file: &str| command_line.read(&format!("{folder}/{file}.csv"));
+    let log = |folder: &str, file: &str| command_line.csv(folder, file);
 
     assert_eq!(walk("quiet", ""), (Some(0), 0));
     let push = "[[push]]\nat_s = 1\nlasts_s = 0.1\nimpulse_n_s = [0, 60, 0]";

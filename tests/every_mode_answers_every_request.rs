@@ -182,7 +182,8 @@ fn after_a_fall_a_reset_leads_back_to_a_stand() {
     controller.ask(&Ask::Reset.asked());
     let mut last = tick(&mut controller, upright);
     assert_eq!(last.answer.map(|answer| answer.admission.verdict), Some(Verdict::Accepted));
-    for _ in 0..4000 {
+    // A stand, and then the time in which the legs come back from having given way to feet that bear all the while.
+    for _ in 0..8000 {
         assert!(matches!(last.mode, Mode::Starting | Mode::Standing), "{:?}", last.mode);
         let report = tick(&mut controller, upright);
         let step = (report.setpoint.angles - last.setpoint.angles).max_abs();

@@ -22,7 +22,7 @@ fn mujoco_agrees() {
     let mut random = random(6);
     let motions: Vec<Motion> = (0..STATES).map(|_| random_motion(&mut random)).collect();
     let told = json!({
-        "mjcf": mjcf_text(&mechanism, &plant_parameters()),
+        "mjcf": mjcf_text(&mechanism, &plant_parameters(), 1e-3),
         "joints": Joint::ALL.map(|joint| joint.name()),
         "states": motions.iter().map(|motion| json!({
             "angles": motion.angles.0, "rates": motion.rates.0, "accelerations": motion.accelerations.0,

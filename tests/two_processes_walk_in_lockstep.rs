@@ -1,6 +1,6 @@
 //! Two processes walk in lockstep: they do not fall, and what they do depends on nothing but seed and commands.
 //!
-//! The same walk twice must leave the same plant log to the byte; another seed another one, so that the comparison can
+//! The same walk twice must leave the same truth about the plant to the byte; another seed another one, so that the comparison can
 //! fail.
 
 use halfstep_tests::command_line::CommandLine;
@@ -30,7 +30,7 @@ fn two_processes_walk_in_lockstep() {
     assert!((2.0..3.0).contains(&distance), "ten half-steps of 0.25 m, not {distance} m");
 
     assert_eq!(walk(&command_line, "again", 3), summary);
-    let log = |folder: &str| command_line.read(&format!("{folder}/plant.csv"));
+    let log = |folder: &str| command_line.csv(folder, "plant");
     assert!(log("again") == log("first"), "the same walk leaves the same log");
 
     walk(&command_line, "other", 4);

@@ -22,7 +22,7 @@ fn walks_in_mujoco() {
     let summary = walk("mujoco", "first");
     assert_eq!((&summary["falls"], &summary["plant"]), (&0.into(), &"mujoco".into()));
     walk("mujoco", "again");
-    let log = |folder: &str| command_line.read(&format!("{folder}/plant.csv"));
+    let log = |folder: &str| command_line.csv(folder, "plant");
     assert!(log("again") == log("first"), "the same walk leaves the same log");
 
     // The same sensors' noise, other physics.

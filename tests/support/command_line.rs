@@ -75,6 +75,13 @@ impl CommandLine {
         fs::read_to_string(self.folder().join(file)).unwrap_or_else(|error| panic!("{file}: {error}"))
     }
 
+    /// What was recorded of a run in the folder as a table: `plant` or `controller`.
+    pub fn csv(&self, run: &str, table: &str) -> String {
+        let ended = self.run(&format!("plot {run} --csv"));
+        assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+        self.read(&format!("{run}/{table}.csv"))
+    }
+
     /// Replaces `from`, which must be there, by `to` in a file of the folder.
     pub fn edit(&self, file: &str, from: &str, to: &str) {
         let text = self.read(file);
@@ -165,6 +172,14 @@ impl Running {
         rustix::process::kill_process(rustix::process::Pid::from_child(&self.child), rustix::process::Signal::TERM)
             .expect("it is still there");
         self.finish()
+    }
+
+    /// Halts it, as a debugger does, and lets it go on after a while.
+    pub fn halt_for(&self, time: Duration) {
+        let pid = rustix::process::Pid::from_child(&self.child);
+        rustix::process::kill_process(pid, rustix::process::Signal::STOP).expect("it is still there");
+        std::thread::sleep(time);
+        rustix::process::kill_process(pid, rustix::process::Signal::CONT).expect("it is still there");
     }
 
     /// Kills it; it has no chance to clean up.

@@ -1,6 +1,7 @@
 """Draws a run, of either plant, as MuJoCo sees it: PNG frames, without a screen.
 
     halfstep export mjcf --out robot.xml
+    halfstep plot runs/0001 --csv
     MUJOCO_GL=egl python tools/mujoco_plant/render.py runs/0001 robot.xml frames --every 0.1
 
 `MUJOCO_GL` is `egl`, or `osmesa` where that library is. The camera goes along at the robot's side.
@@ -17,9 +18,9 @@ import numpy as np
 
 
 def main():
-    """Reads the run's log and writes one PNG per frame."""
+    """Reads the run's table and writes one PNG per frame."""
     options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    options.add_argument("run", type=Path, help="folder of a run, with plant.csv")
+    options.add_argument("run", type=Path, help="folder with a run's plant.csv")
     options.add_argument("mjcf", type=Path, help="the robot, as `halfstep export mjcf` writes it")
     options.add_argument("out", type=Path, help="folder for the frames")
     options.add_argument("--every", type=float, default=0.1, metavar="S", help="time between frames")

@@ -5,6 +5,7 @@ use std::thread::JoinHandle;
 
 use controller::{Controller, Inquiry};
 use crossbeam::channel::{Receiver, Sender, bounded};
+use runtime::Scheduling;
 
 use crate::turns::Clock;
 
@@ -24,14 +25,15 @@ pub enum Advisor {
 }
 
 impl Advisor {
-    /// For a clock.
-    pub fn new(clock: Clock) -> Self {
+    /// For a clock. A thread asks the system for `scheduling`, and does with what it gets.
+    pub fn new(clock: Clock, scheduling: Scheduling) -> Self {
         if clock == Clock::Lockstep {
             return Advisor::Here;
         }
         let (open, inbox) = bounded::<Box<Inquiry>>(1);
         let (outbox, settled) = bounded(1);
         let thread = std::thread::spawn(move || {
+            let _granted = scheduling.ask();
             for mut inquiry in inbox {
                 inquiry.settle();
                 if outbox.send(inquiry).is_err() {
@@ -42,23 +44,23 @@ impl Advisor {
         Advisor::Beside { open: Some(open), settled, thread: Some(thread) }
     }
 
-    /// Takes what is to be settled and gives back what is. Waits for nothing beside the loop.
-    pub fn serve(&mut self, controller: &mut Controller) {
+    /// Takes what is to be settled and gives back what is; says whether it gave something back. Waits for nothing beside
+    /// the loop.
+    pub fn serve(&mut self, controller: &mut Controller) -> bool {
         match self {
             Advisor::Here => {
-                if let Some(mut inquiry) = controller.inquiry() {
-                    inquiry.settle();
-                    controller.give_back(inquiry);
-                }
+                let Some(mut inquiry) = controller.inquiry() else { return false };
+                inquiry.settle();
+                controller.give_back(inquiry);
+                true
             }
             Advisor::Beside { open, settled, .. } => {
-                if let Ok(inquiry) = settled.try_recv() {
-                    controller.give_back(inquiry);
-                }
+                let given_back = settled.try_recv().map(|inquiry| controller.give_back(inquiry)).is_ok();
                 // There is one inquiry at most, so there is room for it.
                 if let (Some(open), Some(inquiry)) = (open, controller.inquiry()) {
                     let _ = open.try_send(inquiry);
                 }
+                given_back
             }
         }
     }

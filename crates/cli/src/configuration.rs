@@ -2,19 +2,36 @@
 
 use std::ffi::OsString;
 use std::fmt::Display;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use gait::NominalTable;
+use controller::Controller;
+use gait::{NominalTable, Start};
 use model::{Joint, Mechanism, Mirror};
 use plant::Disturbances;
 
 use crate::failure::Failure;
+use crate::realtime::RealtimeParameters;
+use crate::turns::Clock;
+
+/// The robot's file.
+pub const MECHANISM: &str = "mechanism.toml";
+/// The half-step's file.
+pub const NOMINAL: &str = "nominal_half_step.csv";
+/// The controller's parameters.
+pub const CONTROLLER: &str = "controller.toml";
+/// The plant's parameters.
+pub const PLANT: &str = "plant.toml";
+/// The parameters of both loops' time.
+pub const REALTIME: &str = "realtime.toml";
+/// What happens to the plant, as a recording calls it.
+pub const DISTURBANCES: &str = "disturbances.toml";
 
 /// Where the configuration lies.
 #[derive(Clone, Debug, clap::Args)]
 pub struct ConfigOptions {
-    /// Folder with mechanism.toml, nominal_half_step.csv, controller.toml and plant.toml
+    /// Folder with mechanism.toml, nominal_half_step.csv, controller.toml, plant.toml and realtime.toml
     #[arg(long, value_name = "DIR", default_value = "config")]
     pub config: PathBuf,
     /// The robot, if not the folder's mechanism.toml
@@ -38,6 +55,31 @@ pub struct Robot {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Errors(pub Vec<String>);
 
+impl Robot {
+    /// The controller of a process that goes by `clock` and begins `from_stand` or in stride.
+    ///
+    /// # Errors
+    /// Robot and parameters do not go together.
+    pub fn controller(
+        &self,
+        mut parameters: controller::Parameters,
+        clock: Clock,
+        from_stand: bool,
+    ) -> Result<Controller, Failure> {
+        if clock == Clock::Lockstep {
+            // Operators live by the clock on the wall, and half a second in lockstep is over in a few milliseconds.
+            parameters.sources.age_limit = None;
+        }
+        let begin = if from_stand { Controller::standing } else { Controller::new };
+        begin(&self.mechanism, Arc::clone(&self.nominal), &parameters, Start::default()).map_err(Failure::bad_input)
+    }
+}
+
+/// A file's text.
+pub fn read(path: &Path) -> Result<String, Failure> {
+    fs::read_to_string(path).map_err(|error| Failure::new(format!("{}: {error}", path.display())))
+}
+
 impl Errors {
     /// The value, or `None` and a note of what is wrong.
     pub fn note<T, E: Display>(&mut self, result: Result<T, E>) -> Option<T> {
@@ -59,12 +101,12 @@ impl Errors {
 impl ConfigOptions {
     /// The mechanism's file.
     pub fn mechanism_file(&self) -> PathBuf {
-        self.mechanism.clone().unwrap_or_else(|| self.config.join("mechanism.toml"))
+        self.mechanism.clone().unwrap_or_else(|| self.config.join(MECHANISM))
     }
 
     /// The nominal half-step's file.
     pub fn nominal_file(&self) -> PathBuf {
-        self.nominal.clone().unwrap_or_else(|| self.config.join("nominal_half_step.csv"))
+        self.nominal.clone().unwrap_or_else(|| self.config.join(NOMINAL))
     }
 
     /// Reads mechanism and nominal, and checks that they fit.
@@ -90,17 +132,34 @@ impl ConfigOptions {
 
     /// Reads what is set about the controller.
     pub fn controller(&self, errors: &mut Errors) -> Option<controller::Parameters> {
-        errors.note(controller::Parameters::load(self.config.join("controller.toml")))
+        errors.note(controller::Parameters::load(self.config.join(CONTROLLER)))
     }
 
     /// Reads what is set about the plant.
     pub fn plant(&self, errors: &mut Errors) -> Option<plant::Parameters> {
-        errors.note(plant::Parameters::load(self.config.join("plant.toml")))
+        errors.note(plant::Parameters::load(self.config.join(PLANT)))
+    }
+
+    /// Reads what is set about the loops' time.
+    pub fn realtime(&self, errors: &mut Errors) -> Option<RealtimeParameters> {
+        errors.note(RealtimeParameters::load(self.config.join(REALTIME)))
     }
 
     /// Reads what happens to the plant, if anything.
     pub fn disturbances(file: Option<&Path>, errors: &mut Errors) -> Option<Disturbances> {
         file.map_or_else(|| Some(Disturbances::default()), |file| errors.note(Disturbances::load(file)))
+    }
+
+    /// The exact texts of what a process began with, for its recording: mechanism, half-step, the folder's file `parameters`,
+    /// and what is set about the loops' time.
+    ///
+    /// # Errors
+    /// One of the files cannot be read any more.
+    pub fn texts(&self, parameters: &str) -> Result<Vec<(String, String)>, Failure> {
+        let (mechanism, nominal) = (self.mechanism_file(), self.nominal_file());
+        let [parameters, realtime] = [parameters, REALTIME].map(|name| (name, self.config.join(name)));
+        let files = [(MECHANISM, mechanism), (NOMINAL, nominal), parameters, realtime];
+        files.into_iter().map(|(name, path)| Ok((name.to_owned(), read(&path)?))).collect()
     }
 
     /// The same options, for another process.

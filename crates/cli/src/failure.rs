@@ -78,8 +78,12 @@ impl From<wire::WireFault> for Failure {
     }
 }
 
-impl From<crate::run_log::RunLogError> for Failure {
-    fn from(error: crate::run_log::RunLogError) -> Self {
-        Self::new(error)
+impl From<record::RecordError> for Failure {
+    fn from(error: record::RecordError) -> Self {
+        use record::RecordError::{NotMcap, Nothing, OtherVersion};
+        Self {
+            bad_input: matches!(error, Nothing { .. } | NotMcap { .. } | OtherVersion { .. }),
+            text: error.to_string(),
+        }
     }
 }

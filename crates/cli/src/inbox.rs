@@ -2,16 +2,18 @@
 
 use controller::{Asked, TickReport};
 use serde::{Deserialize, Serialize};
-use wire::{Answer, Granted, Reason, Reply, RequestMessage, RequestServer, Verdict};
+use wire::{Granted, Reason, Reply, ReplyMessage, Verdict};
 
+use crate::clerk::{Clerk, Letter, LetterId};
 use crate::exchange;
+use crate::record::{ControllerNews, Record};
 
 /// How many requests may wait for their tick.
 pub const CAPACITY: usize = 256;
 
 /// Requests on their way to the controller, earliest tick first; of one tick, first come first served.
 pub struct Inbox {
-    server: RequestServer,
+    clerk: Clerk,
     waiting: heapless::Vec<Waiting, CAPACITY>,
     /// What a refused request is told to be in force.
     in_force: (u64, Granted),
@@ -25,9 +27,10 @@ struct Waiting {
 
 /// A request whose tick has come. Its source is heard then, not when it was sent.
 pub struct Due {
+    /// Which letter asks.
+    pub id: LetterId,
     /// What is asked.
     pub asked: Asked,
-    answer: Answer,
 }
 
 /// How many requests were answered how. A stream's signs of life are none.
@@ -42,29 +45,28 @@ pub struct Tally {
 }
 
 impl Inbox {
-    /// Empty, for the requests that come to `server`.
-    pub fn new(server: RequestServer) -> Self {
+    /// Empty, for the letters that a clerk brings.
+    pub fn new(clerk: Clerk) -> Self {
         let granted = Granted { turn: 0.0, speed: 1.0, extension: 0.0, intent: None };
-        Self { server, waiting: heapless::Vec::new(), in_force: (0, granted), tally: Tally::default() }
+        Self { clerk, waiting: heapless::Vec::new(), in_force: (0, granted), tally: Tally::default() }
     }
 
     /// Takes in what has come, and refuses at once what cannot be granted whatever happens.
-    pub fn collect(&mut self) {
-        // An operator whose memory cannot be reached has gone; the next look finds the others.
-        while let Ok(Some((message, answer))) = self.server.next_request() {
-            self.take(&message, answer);
+    pub fn collect(&mut self, record: &mut Record<ControllerNews>) {
+        while let Some(letter) = self.clerk.next_letter() {
+            record.push(letter.news());
+            self.take(letter, record);
         }
     }
 
-    fn take(&mut self, message: &RequestMessage, answer: Answer) {
-        let (not_before, asked) = match exchange::request::for_controller(message) {
+    fn take(&mut self, Letter { id, message }: Letter, record: &mut Record<ControllerNews>) {
+        let (not_before, asked) = match exchange::request::for_controller(&message) {
             Ok(asked) => asked,
-            Err(reason) => return self.refuse(answer, reason),
+            Err(reason) => return self.refuse(id, reason, record),
         };
         let place = self.waiting.partition_point(|waiting| waiting.not_before <= not_before);
-        let waiting = Waiting { not_before, due: Due { asked, answer } };
-        if let Err(waiting) = self.waiting.insert(place, waiting) {
-            self.refuse(waiting.due.answer, Reason::QueueFull);
+        if self.waiting.insert(place, Waiting { not_before, due: Due { id, asked } }).is_err() {
+            self.refuse(id, Reason::QueueFull, record);
         }
     }
 
@@ -75,7 +77,7 @@ impl Inbox {
     }
 
     /// Answers a request with what the tick made of it, and notes what is in force.
-    pub fn answer(&mut self, due: Option<Due>, report: &TickReport) {
+    pub fn answer(&mut self, due: Option<Due>, report: &TickReport, record: &mut Record<ControllerNews>) {
         let (half_step, granted) = &mut self.in_force;
         *half_step = report.half_step.index;
         granted.turn = report.command.turn;
@@ -87,25 +89,44 @@ impl Inbox {
             if !due.asked.is_empty() {
                 self.tally.count(reply.verdict);
             }
-            // Whether the operator is still there to hear it changes nothing.
-            due.answer.reply(&(&reply).into());
+            self.reply(due.id, &reply, record);
         }
     }
 
     /// Refuses what still waits, because the controller ends. Gives the tally of what was asked in time.
-    pub fn close(mut self) -> Tally {
-        let tally = self.tally;
-        self.collect();
-        while let Some(waiting) = self.waiting.pop() {
-            self.refuse(waiting.due.answer, Reason::ShuttingDown);
+    pub fn close(self, record: &mut Record<ControllerNews>) -> Tally {
+        let (effect_half_step, granted) = self.in_force;
+        let refusal = ReplyMessage::from(&Reply::refused(Reason::ShuttingDown, effect_half_step, granted));
+        let (mut counter, unread) = self.clerk.close();
+        let mut unread = unread.into_iter();
+        let mut refused: Vec<LetterId> = self.waiting.iter().map(|waiting| waiting.due.id).collect();
+        while let Some(letter) = unread.next().or_else(|| counter.next_letter()) {
+            record.push(letter.news());
+            refused.push(letter.id);
         }
-        tally
+        for id in refused {
+            counter.reply(id, &refusal);
+            record.push(ControllerNews::Reply(id.number(), refusal));
+        }
+        self.tally
     }
 
-    fn refuse(&mut self, answer: Answer, reason: Reason) {
+    fn refuse(&mut self, id: LetterId, reason: Reason, record: &mut Record<ControllerNews>) {
         let (effect_half_step, granted) = self.in_force;
         self.tally.count(Verdict::Refused);
-        answer.reply(&(&Reply::refused(reason, effect_half_step, granted)).into());
+        self.reply(id, &Reply::refused(reason, effect_half_step, granted), record);
+    }
+
+    fn reply(&mut self, id: LetterId, reply: &Reply, record: &mut Record<ControllerNews>) {
+        let message = ReplyMessage::from(reply);
+        self.clerk.reply(id, message);
+        record.push(ControllerNews::Reply(id.number(), message));
+    }
+}
+
+impl Letter {
+    fn news(&self) -> ControllerNews {
+        ControllerNews::Request(self.id.number(), self.message)
     }
 }
 

@@ -4,12 +4,16 @@
 //! together do not know each other: what one says is put into the other's words in [`exchange`].
 
 pub mod advisor;
+pub mod bench_page;
+pub mod clerk;
 pub mod command;
 pub mod configuration;
 pub mod engine;
 pub mod exchange;
 pub mod failure;
+pub mod html;
 pub mod import;
+pub mod in_command;
 pub mod inbox;
 pub mod interrupt;
 pub mod mjcf;
@@ -19,7 +23,9 @@ pub mod picture;
 pub mod process;
 pub mod progress;
 pub mod python_messages;
+pub mod realtime;
 pub mod record;
+pub mod replay;
 pub mod run_controller;
 pub mod run_log;
 pub mod run_plant;

@@ -20,7 +20,6 @@ use model::{Body, Joint, Mechanism, Side};
 use nalgebra::Vector3;
 use plant::Parameters;
 
-use crate::turns::PERIOD;
 use crate::urdf::equivalent_sides;
 
 /// Time constant [s] and damping ratio; impedance from 0.99 to 0.999 over half a millimetre.
@@ -30,10 +29,10 @@ const UNUSED_FRICTION: &str = "0.005 0.0001";
 
 /// The mechanism on a floor as `parameters` has it: friction, slope, payload and integration step.
 ///
-/// The text is complete: MuJoCo loads it without other files.
-pub fn mjcf_text(mechanism: &Mechanism, parameters: &Parameters) -> String {
+/// `period` is the control period [s]. The text is complete: MuJoCo loads it without other files.
+pub fn mjcf_text(mechanism: &Mechanism, parameters: &Parameters, period: f64) -> String {
     let mut out = Lines::default();
-    let timestep = PERIOD.as_secs_f64() / f64::from(parameters.steps_per_period);
+    let timestep = period / f64::from(parameters.steps_per_period);
     let friction = format!(r#"friction="{} {UNUSED_FRICTION}""#, parameters.contact.friction);
     out.open(format_args!(r#"mujoco model="{}""#, escaped(&mechanism.name)));
     out.line(r#"<compiler angle="radian" inertiafromgeom="false" autolimits="true"/>"#);
@@ -296,7 +295,7 @@ mod tests {
     #[test]
     fn it_weighs_what_the_robot_weighs() {
         let mechanism = mechanism();
-        let text = mjcf_text(&mechanism, &Parameters::default());
+        let text = mjcf_text(&mechanism, &Parameters::default(), 1e-3);
         let mass: f64 = values(&text, "mass").iter().map(|mass| mass.parse::<f64>().unwrap()).sum();
         assert!((mass - mechanism.mass()).abs() < 1e-12, "{mass}");
         assert_eq!(values(&text, "mass").len(), 12, "no massless bodies");
@@ -304,7 +303,7 @@ mod tests {
 
     #[test]
     fn every_powered_joint_is_there_once_and_driven() {
-        let text = mjcf_text(&mechanism(), &Parameters::default());
+        let text = mjcf_text(&mechanism(), &Parameters::default(), 1e-3);
         for joint in Joint::ALL {
             let count = |tag: &str| text.matches(&format!("<{tag} name=\"{}\"", joint.name())).count();
             let expected = usize::from(joint.is_powered());
@@ -314,7 +313,7 @@ mod tests {
 
     #[test]
     fn every_element_is_closed() {
-        let text = mjcf_text(&mechanism(), &Parameters::default());
+        let text = mjcf_text(&mechanism(), &Parameters::default(), 1e-3);
         let mut open = Vec::new();
         for line in text.lines().map(str::trim) {
             let name = line.trim_matches(['<', '>', '/']).split([' ', '>']).next().unwrap();
@@ -335,7 +334,7 @@ mod tests {
             steps_per_period: 2,
             ..Parameters::default()
         };
-        let text = mjcf_text(&mechanism(), &parameters);
+        let text = mjcf_text(&mechanism(), &parameters, 1e-3);
         assert_eq!(values(&text, "timestep"), ["0.0005"]);
         assert!(values(&text, "friction").iter().all(|friction| friction.starts_with("0.8 ")));
         let gravity: Vec<f64> = values(&text, "gravity")[0].split(' ').map(|number| number.parse().unwrap()).collect();

@@ -5,6 +5,7 @@
 
 use std::collections::VecDeque;
 
+use runtime::Rate;
 use wire::{AskError, OperatorEnd, Reply, Request, Waiting};
 
 use crate::failure::Failure;
@@ -20,8 +21,8 @@ pub struct Operator {
 
 impl Operator {
     /// For the steps of a script that begins at tick 0.
-    pub fn new(end: OperatorEnd, steps: &[Step]) -> Self {
-        let due = |step: &Step| Request { not_before: step.tick(), ..step.request };
+    pub fn new(end: OperatorEnd, steps: &[Step], rate: Rate) -> Self {
+        let due = |step: &Step| Request { not_before: step.tick(rate), ..step.request };
         Self { end, to_send: steps.iter().map(due).collect(), unanswered: VecDeque::new() }
     }
 

@@ -1,23 +1,25 @@
 //! The progress of a walk, on a terminal.
 
 use indicatif::{ProgressBar, ProgressStyle};
+use runtime::Rate;
 use wire::Report;
 
 /// A line that follows the walk; nothing if stderr is no terminal.
 pub struct Progress {
     bar: ProgressBar,
+    rate: Rate,
 }
 
 impl Progress {
     /// For a walk of so many ticks, or without end.
-    pub fn new(ticks: Option<u64>) -> Self {
+    pub fn new(ticks: Option<u64>, rate: Rate) -> Self {
         let (bar, template) = match ticks {
             Some(ticks) => (ProgressBar::new(ticks), "{bar:20} {msg}"),
             None => (ProgressBar::no_length(), "{spinner} {msg}"),
         };
         // The templates are constant and right.
         let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-        Self { bar: bar.with_style(style) }
+        Self { bar: bar.with_style(style), rate }
     }
 
     /// Shows where the walk is.
@@ -26,7 +28,7 @@ impl Progress {
         self.bar.set_position(report.tick + 1);
         self.bar.set_message(format!(
             "{:6.1} s  half-step {:3}  speed {:.2}  turn {:+5.1}°  extension {:+5.1}°  margin {margin} mm  {}",
-            (report.tick + 1) as f64 * crate::turns::PERIOD.as_secs_f64(),
+            (report.tick + 1) as f64 * self.rate.period_s(),
             report.half_step,
             report.speed,
             report.turn.to_degrees(),

@@ -9,10 +9,9 @@
 
 use std::time::Duration;
 
+use runtime::Rate;
 use serde::{Deserialize, Deserializer};
 use wire::{Request, Source};
-
-use crate::turns::PERIOD;
 
 /// One line: a request and its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,8 +99,8 @@ impl Reader {
 
 impl Step {
     /// The tick that its time is, for a beginning at tick 0; 0 is at once.
-    pub fn tick(&self) -> u64 {
-        self.time.map_or(0, |time| (time.as_secs_f64() / PERIOD.as_secs_f64()).round() as u64)
+    pub fn tick(&self, rate: Rate) -> u64 {
+        self.time.map_or(0, |time| rate.ticks(time))
     }
 }
 
@@ -159,7 +158,7 @@ mod tests {
     #[test]
     fn a_line_is_read_in_degrees_and_seconds() {
         let step = Reader::new("f").read(r#"{"t":1.5,"turn_deg":180,"speed":1.2,"intent":"stop"}"#).unwrap().unwrap();
-        assert_eq!(step.tick(), 1500);
+        assert_eq!(step.tick(Rate::default()), 1500);
         assert_eq!(step.request.turn, Some(std::f64::consts::PI));
         assert_eq!((step.request.speed, step.request.extension), (Some(1.2), None));
         assert_eq!(step.request.intent, Some(wire::Intent::Stop));

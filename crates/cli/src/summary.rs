@@ -67,9 +67,13 @@ pub struct WalkSummary {
 
 impl fmt::Display for ControllerSummary {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        let Self { ticks, half_steps, mode, requests, deadline_misses, .. } = self;
+        let Self { ticks, half_steps, mode, requests, deadline_misses, log_gaps } = self;
         let mode = if mode.is_empty() { "never began" } else { mode };
-        write!(out, "{ticks} ticks, {half_steps} half-steps, {mode}; {requests}; {deadline_misses} deadlines missed")
+        write!(
+            out,
+            "{ticks} ticks, {half_steps} half-steps, {mode}; {requests}; {deadline_misses} deadlines missed, {log_gaps} \
+             reports dropped"
+        )
     }
 }
 
@@ -113,6 +117,7 @@ impl fmt::Display for WalkSummary {
             }
         }
         writeln!(out, "{}", self.requests)?;
-        write!(out, "{:.1} × real time, {} deadlines missed", self.real_time_factor, self.deadline_misses)
+        let Self { real_time_factor, deadline_misses, log_gaps, .. } = self;
+        write!(out, "{real_time_factor:.1} × real time, {deadline_misses} deadlines missed, {log_gaps} reports dropped")
     }
 }

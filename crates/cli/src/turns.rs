@@ -1,26 +1,26 @@
 //! Whose turn it is: when the controller ticks and the plant steps, by either of the two clocks.
 //!
 //! * **realtime**: the first turn comes with the other side's first message, from then on one per period by this
-//!   process's own absolute deadlines; whatever message is newest counts. A turn that comes late makes up for the periods
-//!   that were missed, so that both sides keep to the same time.
+//!   process's own absolute deadlines; whatever message is newest counts. Whole periods that were missed are skipped: the
+//!   next turn keeps the phase, is for their time, too, and says how many they were, so that both sides keep to the same
+//!   time.
 //! * **lockstep**: turn `k` comes with the other side's message of tick `k`, as soon as that is there. The plant's
 //!   measurement 0 begins; the controller answers measurement `k` with setpoint `k`, the plant answers that with
 //!   measurement `k + 1`. So a run depends on nothing but its inputs.
 
 use std::time::Duration;
 
-use runtime::{Period, now_ns};
+use runtime::{Period, Rate, now_ns};
 use wire::{Newest, NewestReader};
 
 use crate::interrupt::Interrupt;
 
-/// The control period.
-pub const PERIOD: Duration = Duration::from_millis(1);
-
 /// Longest silence of the other side that lockstep bears.
 const SILENCE_MAX: Duration = Duration::from_secs(30);
-/// How long a waiting process spins before it sleeps between two looks: waking up costs more than a whole lockstep turn.
-const SPIN: Duration = Duration::from_millis(2);
+/// How long a waiting process keeps its core, longer than a turn of the other side takes; then it lets others have it, and
+/// at last it sleeps between two looks: waking up costs more than a whole lockstep turn.
+const SPIN: Duration = Duration::from_micros(50);
+const YIELD: Duration = Duration::from_millis(2);
 const NAP: Duration = Duration::from_micros(200);
 /// Most periods that one turn makes up for: whoever was away for longer has been halted, and nothing was to be done then.
 const MADE_UP_MAX: u64 = 100;
@@ -36,13 +36,25 @@ pub enum Clock {
 
 /// The turns of one side, which hears messages `M` from the other.
 pub struct Turns<M: Newest> {
-    clock: Clock,
+    pace: Pace,
     reader: NewestReader<M>,
     peer: &'static str,
     ticks: Option<u64>,
     next_tick: u64,
     period: Option<Period>,
+    missed_in_a_row: u64,
     interrupt: Interrupt,
+}
+
+/// How a process goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pace {
+    /// By what.
+    pub clock: Clock,
+    /// How many periods there are in a second.
+    pub rate: Rate,
+    /// How long before a deadline sleeping ends.
+    pub spin: Duration,
 }
 
 /// One turn.
@@ -52,8 +64,12 @@ pub struct Turn<M> {
     pub tick: u64,
     /// How many periods this turn is for: 1, or more when some were missed.
     pub periods: u64,
+    /// How long it is for [s].
+    pub dt: f64,
     /// How many deadlines were missed since the last turn.
     pub missed: u64,
+    /// How many were missed since the last turn that came in time.
+    pub missed_in_a_row: u64,
     /// The other side's newest message; in lockstep the one of this tick.
     pub message: M,
 }
@@ -75,21 +91,26 @@ pub struct PeerSilent {
     pub heard: Option<u64>,
 }
 
+impl Clock {
+    /// In a word.
+    pub const fn text(self) -> &'static str {
+        match self {
+            Clock::Realtime => "realtime",
+            Clock::Lockstep => "lockstep",
+        }
+    }
+}
+
 impl<M: Newest> Turns<M> {
     /// Turns that come from the `peer`'s messages; at most `ticks` periods, or without end.
     pub fn new(
-        clock: Clock,
+        pace: Pace,
         reader: NewestReader<M>,
         peer: &'static str,
         ticks: Option<u64>,
         interrupt: Interrupt,
     ) -> Self {
-        Self { clock, reader, peer, ticks, next_tick: 0, period: None, interrupt }
-    }
-
-    /// By what it goes.
-    pub fn clock(&self) -> Clock {
-        self.clock
+        Self { pace, reader, peer, ticks, next_tick: 0, period: None, missed_in_a_row: 0, interrupt }
     }
 
     /// Waits for the next turn; `None` at the end, or when the process was asked to end. While there is nothing to do but
@@ -101,22 +122,29 @@ impl<M: Newest> Turns<M> {
         if self.is_over() {
             return Ok(None);
         }
-        match (self.clock, &mut self.period) {
+        match (self.pace.clock, &mut self.period) {
             (Clock::Lockstep, _) => self.wait_for_message(idle),
             (Clock::Realtime, None) => {
                 let first = self.wait_for_message(idle);
-                self.period = Some(Period::starting_now(PERIOD));
+                let Pace { rate, spin, .. } = self.pace;
+                self.period = Some(Period::starting_now(rate.period()).with_spin(spin));
                 first
             }
             (Clock::Realtime, Some(period)) => {
-                let missed = period.wait();
+                let missed = period.wait().missed;
+                self.missed_in_a_row = if missed > 0 { self.missed_in_a_row + missed } else { 0 };
                 let periods = 1 + missed.min(MADE_UP_MAX);
                 self.next_tick += periods;
                 let tick = self.next_tick - 1;
                 let message = self.reader.newest().filter(|_| !self.is_over_at(tick));
-                Ok(message.map(|message| Turn { tick, periods, missed, message }))
+                Ok(message.map(|message| self.turn(tick, periods, missed, message)))
             }
         }
+    }
+
+    fn turn(&self, tick: u64, periods: u64, missed: u64, message: M) -> Turn<M> {
+        let dt = periods as f64 * self.pace.rate.period_s();
+        Turn { tick, periods, dt, missed, missed_in_a_row: self.missed_in_a_row, message }
     }
 
     fn is_over(&self) -> bool {
@@ -133,20 +161,24 @@ impl<M: Newest> Turns<M> {
         let wanted = self.next_tick;
         loop {
             let heard = self.reader.newest();
-            if let Some(message) = heard.filter(|heard| self.clock == Clock::Realtime || heard.tick() == wanted) {
+            if let Some(message) = heard.filter(|heard| self.pace.clock == Clock::Realtime || heard.tick() == wanted) {
                 self.next_tick += 1;
-                return Ok(Some(Turn { tick: wanted, periods: 1, missed: 0, message }));
+                return Ok(Some(self.turn(wanted, 1, 0, message)));
             }
             if self.interrupt.is_raised() {
                 return Ok(None);
             }
             let waited = Duration::from_nanos(now_ns() - began);
             if waited < SPIN {
+                std::hint::spin_loop();
+                continue;
+            }
+            if waited < YIELD {
                 std::thread::yield_now();
                 continue;
             }
             idle();
-            if self.clock == Clock::Lockstep && waited > SILENCE_MAX {
+            if self.pace.clock == Clock::Lockstep && waited > SILENCE_MAX {
                 return Err(PeerSilent { peer: self.peer, wanted, heard: heard.map(|message| message.tick()) });
             }
             std::thread::sleep(NAP);

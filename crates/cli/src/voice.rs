@@ -7,11 +7,11 @@
 
 use std::time::Duration;
 
+use runtime::Rate;
 use wire::{Instance, Lasting, ObserverEnd, OperatorEnd, Reply, Request, Source, Verdict, Waiting};
 
 use crate::failure::Failure;
 use crate::script::Step;
-use crate::turns::PERIOD;
 
 /// Speaks for one stream.
 pub struct Voice {
@@ -22,6 +22,7 @@ pub struct Voice {
     spoke: Option<u64>,
     /// The last sign of life, until it is answered.
     sign: Option<Waiting>,
+    rate: Rate,
 }
 
 /// The controller's time, by its reports: it may go faster or slower than the clock on the wall.
@@ -46,8 +47,10 @@ impl Voice {
     /// No controller is there.
     pub fn connect(instance: &Instance, age_limit: Option<Duration>) -> Result<Self, Failure> {
         let operator = OperatorEnd::connect(instance)?;
-        let clock = ControllerClock { observer: ObserverEnd::connect(instance)?, began: None, now: 0 };
-        Ok(Self { operator, clock, age_limit, spoke: None, sign: None })
+        let observer = ObserverEnd::connect(instance)?;
+        let rate = Rate::new(observer.reports.rate_hz()).unwrap_or_default();
+        let clock = ControllerClock { observer, began: None, now: 0 };
+        Ok(Self { operator, clock, age_limit, spoke: None, sign: None, rate })
     }
 
     /// Looks at the controller's clock and gives a sign of life if it is time for one. To be called again and again.
@@ -73,7 +76,7 @@ impl Voice {
         if step.time.is_none() {
             return Some(0);
         }
-        let due = self.clock.began? + step.tick();
+        let due = self.clock.began? + step.tick(self.rate);
         (self.clock.now + LEAD >= due).then_some(due)
     }
 
@@ -125,7 +128,7 @@ impl Voice {
     fn ticks_between_signs(&self) -> u64 {
         // Nobody says what the controller's own limit is, but it is no shorter than this.
         let limit = self.age_limit.unwrap_or(Duration::from_secs_f64(controller::AGE_LIMIT_MIN));
-        (limit.div_duration_f64(PERIOD * SIGNS_PER_LIMIT) as u64).max(1)
+        (limit.div_duration_f64(self.rate.period() * SIGNS_PER_LIMIT) as u64).max(1)
     }
 }
 

@@ -1,9 +1,15 @@
-//! When things happen: deadlines, and a journal that never holds up the loop.
+//! When things happen: deadlines, real-time scheduling, and a journal that never holds up the loop.
 //!
 //! The only crate that asks for the time. It knows nothing of robots and depends on no other crate of the workspace.
 
 mod journal;
 mod period;
+mod rate;
+mod scheduling;
+mod system;
 
 pub use journal::{Journal, JournalEnd};
-pub use period::{Period, now_ns};
+pub use period::{Period, Wake, now_ns};
+pub use rate::Rate;
+pub use scheduling::{Granted, Refusal, Scheduling};
+pub use system::Usage;

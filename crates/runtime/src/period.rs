@@ -3,6 +3,8 @@
 //! * **deadline**: an absolute time on `CLOCK_MONOTONIC`, which no one sets and all processes of the machine share.
 //! * **missed**: a whole period in which the loop did not wake up. After a delay of 2.3 periods two were missed; the
 //!   third begins at once, 0.3 periods late, and the next one on time: the phase is kept, and nothing is caught up.
+//! * **spin**: how long before the deadline sleeping ends; the rest is waited for on the core, since no system wakes a
+//!   thread up to the microsecond.
 
 use std::time::Duration;
 
@@ -15,22 +17,45 @@ use rustix::time::{Timespec, clock_gettime};
 pub struct Period {
     length_ns: u64,
     deadline_ns: u64,
+    spin_ns: u64,
+}
+
+/// How a period began.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Wake {
+    /// Whole periods that were missed: 0 as long as the work fits into the period.
+    pub missed: u64,
+    /// How long after its deadline [ns].
+    pub late_ns: u64,
 }
 
 impl Period {
     /// Periods of `length` from now on; the first deadline is one `length` away. Shorter lengths than 1 ns count as 1 ns.
     pub fn starting_now(length: Duration) -> Self {
         let length_ns = u64::try_from(length.as_nanos()).unwrap_or(u64::MAX / 2).max(1);
-        Self { length_ns, deadline_ns: now_ns().saturating_add(length_ns) }
+        Self { length_ns, deadline_ns: now_ns().saturating_add(length_ns), spin_ns: 0 }
     }
 
-    /// Sleeps until the deadline, if it is still to come, and moves it one period on. Returns how many whole periods
-    /// were missed: 0 as long as the work fits into the period. Neither allocates nor fails.
-    pub fn wait(&mut self) -> u64 {
+    /// The same periods, the last `spin` of the wait for each spent awake. At most half a period: a thread that never
+    /// sleeps is in everybody's way.
+    pub fn with_spin(self, spin: Duration) -> Self {
+        let spin_ns = u64::try_from(spin.as_nanos()).unwrap_or(u64::MAX).min(self.length_ns / 2);
+        Self { spin_ns, ..self }
+    }
+
+    /// Waits until the deadline, if it is still to come, and moves it one period on. Neither allocates nor fails; the
+    /// only system call is the sleep.
+    pub fn wait(&mut self) -> Wake {
         let missed = self.skip_missed(now_ns());
-        sleep_until(self.deadline_ns);
-        self.deadline_ns = self.deadline_ns.saturating_add(self.length_ns);
-        missed
+        let deadline_ns = self.deadline_ns;
+        sleep_until(deadline_ns - self.spin_ns);
+        let mut woke_ns = now_ns();
+        while woke_ns < deadline_ns {
+            std::hint::spin_loop();
+            woke_ns = now_ns();
+        }
+        self.deadline_ns = deadline_ns.saturating_add(self.length_ns);
+        Wake { missed, late_ns: woke_ns - deadline_ns }
     }
 
     /// The next deadline on `CLOCK_MONOTONIC` [ns].
@@ -72,7 +97,7 @@ mod tests {
         let first = period.deadline_ns();
         let mut deadlines = 0;
         for _ in 0..10 {
-            deadlines += period.wait() + 1;
+            deadlines += period.wait().missed + 1;
             assert!(now_ns() >= period.deadline_ns() - length.as_nanos() as u64, "woke up before the deadline");
             // Some work, which must not add to the period.
             std::thread::sleep(Duration::from_millis(2));
@@ -81,8 +106,20 @@ mod tests {
     }
 
     #[test]
+    fn spinning_does_not_begin_a_period_early_or_lose_one() {
+        let mut period = Period::starting_now(Duration::from_millis(2)).with_spin(Duration::from_millis(1));
+        for _ in 0..10 {
+            let deadline = period.deadline_ns();
+            let wake = period.wait();
+            assert!(now_ns() >= deadline + wake.missed * 2_000_000 + wake.late_ns);
+            assert_eq!(period.deadline_ns(), deadline + (1 + wake.missed) * 2_000_000);
+        }
+        assert_eq!(period.with_spin(Duration::MAX).spin_ns, 1_000_000, "half of the period is slept");
+    }
+
+    #[test]
     fn a_late_caller_hears_how_many_it_missed_and_keeps_the_phase() {
-        let mut period = Period { length_ns: 100, deadline_ns: 1000 };
+        let mut period = Period { length_ns: 100, deadline_ns: 1000, spin_ns: 0 };
         assert_eq!((period.skip_missed(700), period.deadline_ns), (0, 1000));
         assert_eq!((period.skip_missed(1000), period.deadline_ns), (0, 1000), "just in time");
         assert_eq!((period.skip_missed(1099), period.deadline_ns), (0, 1000), "late, but within the period");
@@ -94,7 +131,7 @@ mod tests {
         let mut period = Period::starting_now(Duration::from_millis(1));
         period.wait();
         std::thread::sleep(Duration::from_millis(20));
-        assert!(period.wait() >= 18);
+        assert!(period.wait().missed >= 18);
     }
 
     #[test]

@@ -7,13 +7,23 @@ use iceoryx2::prelude::{AttributeSet, AttributeSpecifier, MessagingPattern, Port
 use iceoryx2::service::attribute::{AttributeKey, AttributeValue};
 use iceoryx2::service::service_hash::ServiceHash;
 
-use crate::{ConnectError, Instance, Ipc};
+use crate::{ConnectError, Instance, Ipc, RATE_HZ};
 
 /// How long a process that is just leaving may stand in the way.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// After how long something half there is not on its way out, but was left by a process killed while it made it.
 const PATIENCE_WITH_HALF_MADE: Duration = Duration::from_millis(300);
 const PAUSE: Duration = Duration::from_millis(5);
+
+/// Key of the periods in a second.
+const RATE: &str = "rate_hz";
+
+/// The periods in a second that a service was created for [Hz].
+pub(crate) fn rate_hz(service: &impl PortFactory) -> u32 {
+    let told = service.attributes().key_value(&attribute_key(RATE), 0);
+    // Whoever speaks this protocol tells.
+    told.and_then(|told| told.to_string().parse().ok()).unwrap_or(RATE_HZ)
+}
 
 /// A service of an instance, with what both sides must agree on.
 pub(crate) struct Agreement<'a> {
@@ -34,6 +44,12 @@ impl<'a> Agreement<'a> {
         let mut terms = vec![("protocol", instance.protocol().to_string())];
         terms.extend(mechanism.map(|fingerprint| ("mechanism", format!("{fingerprint:#018x}"))));
         Self { instance, pattern, name: instance.service_name(service), terms }
+    }
+
+    /// The same for a side that counts the periods: both must count the same ones.
+    pub fn at_rate(mut self) -> Self {
+        self.terms.push((RATE, self.instance.rate_hz().to_string()));
+        self
     }
 
     /// Opens the service if it is there and creates it if it is not, so that the order in which processes start does

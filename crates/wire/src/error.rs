@@ -24,12 +24,16 @@ pub enum ConnectError {
     /// Whoever is there speaks another version or means another robot.
     #[error(
         "service `{service}` has {key} {theirs}, this process has {key} {ours}; {}",
-        if key == &"protocol" { "run the same version of halfstep on both sides" } else { "start both sides with the same mechanism file" }
+        match *key {
+            "protocol" => "run the same version of halfstep on both sides",
+            "rate_hz" => "start both sides with the same realtime.toml",
+            _ => "start both sides with the same mechanism file",
+        }
     )]
     Mismatch {
         /// The service's full name.
         service: String,
-        /// `protocol` or `mechanism`.
+        /// `protocol`, `mechanism` or `rate_hz`.
         key: &'static str,
         /// This process's value.
         ours: String,

@@ -11,7 +11,7 @@ use iceoryx2::prelude::{
 };
 
 use crate::turn::Turn;
-use crate::{ConnectError, Ipc, PROTOCOL};
+use crate::{ConnectError, Ipc, PROTOCOL, RATE_HZ};
 
 /// Where POSIX shared memory lies on Linux.
 const SHARED_MEMORY: &str = "/dev/shm";
@@ -53,6 +53,7 @@ impl fmt::Display for InstanceName {
 pub struct Instance {
     name: InstanceName,
     protocol: u32,
+    rate_hz: u32,
     root: PathBuf,
     config: Config,
 }
@@ -78,12 +79,17 @@ impl Instance {
         config.global.prefix =
             FileName::new(format!("halfstep.{name}.").as_bytes()).map_err(|cause| no_path(&cause))?;
         config.global.set_root_path(&Path::new(root.as_os_str().as_encoded_bytes()).map_err(|cause| no_path(&cause))?);
-        Ok(Self { name, protocol: PROTOCOL, root, config })
+        Ok(Self { name, protocol: PROTOCOL, rate_hz: RATE_HZ, root, config })
     }
 
     /// The same instance for a process that speaks another version than [`PROTOCOL`].
     pub fn with_protocol(self, protocol: u32) -> Self {
         Self { protocol, ..self }
+    }
+
+    /// The same instance for a controller or plant whose loop goes at another rate than [`RATE_HZ`] [Hz].
+    pub fn with_rate_hz(self, rate_hz: u32) -> Self {
+        Self { rate_hz, ..self }
     }
 
     /// The instance's name.
@@ -129,6 +135,10 @@ impl Instance {
 
     pub(crate) fn protocol(&self) -> u32 {
         self.protocol
+    }
+
+    pub(crate) fn rate_hz(&self) -> u32 {
+        self.rate_hz
     }
 
     pub(crate) fn config(&self) -> &Config {

@@ -21,9 +21,10 @@
 //!   one's, for *inequality*: a restarted writer counts from 0 again. The last message of a writer that has gone stays
 //!   until another one writes; that its tick stands still is the only sign.
 //! * The **protocol** ([`PROTOCOL`]) is the version of all layouts and meanings; the **mechanism** is the fingerprint of
-//!   the robot that joint numbers refer to. Both are attributes of the services (keys `protocol` and `mechanism`, decimal
-//!   and `0x…` text). All ends compare the protocol. Controller and plant also compare the mechanism, on `setpoint` and
-//!   `measurement`, which are the services that carry joint numbers.
+//!   the robot that joint numbers refer to; the **rate** is the periods in a second, the unit of all ticks. They are
+//!   attributes of the services (keys `protocol`, `mechanism` and `rate_hz`, as decimal, `0x…` and decimal text). All ends
+//!   compare the protocol. Controller and plant also compare the rate, and the mechanism on `setpoint` and `measurement`,
+//!   which are the services that carry joint numbers. Operators and observers are told the rate.
 //!
 //! # Coming and going
 //!
@@ -59,7 +60,9 @@ mod turn;
 pub use end::{ControllerEnd, ObserverEnd, OperatorEnd, PlantEnd};
 pub use error::{AskError, ConnectError, WireFault};
 pub use instance::{Instance, InstanceName, Leftovers};
-pub use layout::{Field, Layout, Number, layouts};
+#[doc(hidden)]
+pub use layout::kind;
+pub use layout::{Field, FieldValue, LaidOut, Layout, Number, layouts};
 pub use message::*;
 pub use newest::{NEWEST_SLOTS, NewestReader, NewestWriter};
 pub use report::{ReportPublisher, ReportSubscriber};
@@ -67,6 +70,9 @@ pub use request::{Answer, RequestClient, RequestServer, Waiting};
 
 /// The version of all layouts and meanings. Ends of different versions refuse to talk.
 pub const PROTOCOL: u32 = 3;
+
+/// Periods in a second, unless [`Instance::with_rate_hz`] says otherwise [Hz].
+pub const RATE_HZ: u32 = 1000;
 
 /// The kind of iceoryx2 ports: between processes, and movable between threads.
 type Ipc = iceoryx2::prelude::ipc_threadsafe::Service;

@@ -39,7 +39,7 @@ impl<'a> NewestService<'a> {
         service: &'static str,
         mechanism: u64,
     ) -> Result<Self, ConnectError> {
-        let agreement = Agreement::new(instance, service, MessagingPattern::Blackboard, Some(mechanism));
+        let agreement = Agreement::new(instance, service, MessagingPattern::Blackboard, Some(mechanism)).at_rate();
         let blackboard = agreement.open_or_create(
             || node.service_builder(&agreement.name).blackboard_opener::<Slot>().open(),
             |terms| {
@@ -75,8 +75,11 @@ impl<'a> NewestService<'a> {
             self.blackboard.reader_builder().create().map_err(|cause| self.agreement.memory("read from", cause))?;
         let entry = |slot| reader.entry(&slot).map_err(|cause| self.agreement.memory("read from", cause));
         let slots = (0..NEWEST_SLOTS).map(entry).collect::<Result<_, _>>()?;
-        let untouched = entry(UNTOUCHED)?.get();
-        Ok(NewestReader { slots, current: 0, untouched, _port: reader })
+        let untouched = entry(UNTOUCHED)?;
+        let (last, untouched) = (untouched.get(), untouched.get());
+        let mut reader = NewestReader { slots, current: 0, last, probe: 0, untouched, _port: reader };
+        reader.find_highest();
+        Ok(reader)
     }
 }
 
@@ -101,6 +104,9 @@ impl<M: Newest> NewestWriter<M> {
 pub struct NewestReader<M: Newest> {
     slots: Vec<EntryHandle<Ipc, Slot, M>>,
     current: usize,
+    /// The last message read, and the higher place at which to look next if it is still the same.
+    last: BlackboardValue<M>,
+    probe: usize,
     untouched: BlackboardValue<M>,
     _port: Reader<Ipc, Slot>,
 }
@@ -109,13 +115,45 @@ impl<M: Newest> NewestReader<M> {
     /// The newest message, whether or not it was read before; `None` as long as none was ever written.
     #[inline]
     pub fn newest(&mut self) -> Option<M> {
-        // Writers take the first free place, and the places of killed ones never become free: the highest is the last.
+        self.look();
+        (self.last.tick() != NOTHING_YET).then_some(*self.last)
+    }
+
+    /// The newest message, if it was not read before. Cheaper to ask again and again than [`newest`](Self::newest).
+    #[inline]
+    pub fn news(&mut self) -> Option<&M> {
+        self.look().then_some(&self.last)
+    }
+
+    /// Reads the newest message, if there is one that was not read before.
+    #[inline]
+    fn look(&mut self) -> bool {
+        // Who writes beyond the current writer has come after it was killed. Besides the next place one other is looked at
+        // per call, while there is no news: looking at all of them would take longer than a message takes to arrive.
+        let is_written = |slot: usize| self.slots.get(slot).is_some_and(|slot| !slot.is_up_to_date(&self.untouched));
+        let mut is_followed = is_written(self.current + 1);
+        let is_news = !self.slots[self.current].is_up_to_date(&self.last);
+        if !is_followed && !is_news {
+            self.probe = if self.probe + 1 < self.slots.len() { self.probe + 1 } else { self.current + 1 };
+            is_followed = is_written(self.probe);
+        }
+        if is_followed {
+            self.find_highest();
+        } else if is_news {
+            self.last = self.slots[self.current].get();
+        }
+        is_followed || is_news
+    }
+
+    /// Moves on to the last writer: writers take the first free place, and the places of killed ones never become free,
+    /// so that the highest one written is the last.
+    fn find_highest(&mut self) {
         let later = self.current + 1..self.slots.len();
         if let Some(slot) = later.rev().find(|&slot| !self.slots[slot].is_up_to_date(&self.untouched)) {
             self.current = slot;
+            self.probe = slot;
         }
-        let message = *self.slots[self.current].get();
-        (message.tick() != NOTHING_YET).then_some(message)
+        self.last = self.slots[self.current].get();
     }
 }
 

@@ -8,7 +8,7 @@ use iceoryx2::prelude::{BackpressureStrategy, MessagingPattern, Node};
 use iceoryx2::service::builder::publish_subscribe::Builder;
 use iceoryx2::service::port_factory::publish_subscribe::PortFactory;
 
-use crate::agreement::Agreement;
+use crate::agreement::{Agreement, rate_hz};
 use crate::{ConnectError, Instance, Ipc, ReportMessage, WireFault};
 
 const MAX_SUBSCRIBERS: usize = 16;
@@ -40,7 +40,7 @@ pub struct ReportPublisher {
 
 impl ReportPublisher {
     pub(crate) fn connect(instance: &Instance, node: &Node<Ipc>) -> Result<Self, ConnectError> {
-        let agreement = agreement(instance);
+        let agreement = agreement(instance).at_rate();
         let service: Service = agreement.open_or_create(
             || builder(&agreement, node).open(),
             |terms| builder(&agreement, node).create_with_attributes(terms),
@@ -66,6 +66,7 @@ impl ReportPublisher {
 /// A listener's side.
 pub struct ReportSubscriber {
     subscriber: Subscriber<Ipc, ReportMessage, ()>,
+    rate_hz: u32,
 }
 
 impl ReportSubscriber {
@@ -74,7 +75,12 @@ impl ReportSubscriber {
         let service: Service = agreement.open(|| builder(&agreement, node).open())?;
         let subscriber =
             service.subscriber_builder().create().map_err(|cause| agreement.memory("connect to", cause))?;
-        Ok(Self { subscriber })
+        Ok(Self { subscriber, rate_hz: rate_hz(&service) })
+    }
+
+    /// Periods in a second, the unit of the reports' ticks [Hz].
+    pub fn rate_hz(&self) -> u32 {
+        self.rate_hz
     }
 
     /// The oldest report that has not been read; `None` when there is no new one. A gap in the ticks means that the

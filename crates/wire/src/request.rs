@@ -53,7 +53,7 @@ pub struct RequestServer {
 
 impl RequestServer {
     pub(crate) fn connect(instance: &Instance, node: &Node<Ipc>) -> Result<Self, ConnectError> {
-        let agreement = agreement(instance);
+        let agreement = agreement(instance).at_rate();
         let service: Service = agreement.open_or_create(
             || builder(&agreement, node).open(),
             |terms| builder(&agreement, node).create_with_attributes(terms),

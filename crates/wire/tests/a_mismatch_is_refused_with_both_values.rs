@@ -1,4 +1,4 @@
-//! A mismatch is refused with both values: of the protocol's version, and of the mechanism's fingerprint.
+//! A mismatch is refused with both values: of the protocol's version, of the rate, and of the mechanism's fingerprint.
 
 mod common;
 
@@ -30,6 +30,23 @@ fn another_mechanism_is_refused_whoever_comes_first() {
         refusal(&instance, "0x000000000000feed", "0x0123456789abcdef")
     );
     assert!(OperatorEnd::connect(&instance).is_ok(), "operators need not know the mechanism");
+}
+
+#[test]
+fn another_rate_is_refused_and_guests_are_told_it() {
+    let (instance, _leftovers) = own_instance();
+    let faster = instance.clone().with_rate_hz(2000);
+    let _controller = ControllerEnd::connect(&faster, MECHANISM).unwrap();
+    assert_eq!(
+        PlantEnd::connect(&instance, MECHANISM).unwrap_err().to_string(),
+        format!(
+            "service `halfstep/{}/setpoint` has rate_hz 2000, this process has rate_hz 1000; \
+             start both sides with the same realtime.toml",
+            instance.name()
+        )
+    );
+    assert!(OperatorEnd::connect(&instance).is_ok(), "operators need not know the rate");
+    assert_eq!(ObserverEnd::connect(&instance).unwrap().reports.rate_hz(), 2000);
 }
 
 #[test]

@@ -72,7 +72,9 @@ class Instance:
 class Agreement:
     """A service of an instance, and what both sides must agree on."""
 
-    def __init__(self, instance: Instance, service: str, pattern: Any, mechanism: int | None = None) -> None:
+    def __init__(
+        self, instance: Instance, service: str, pattern: Any, mechanism: int | None = None, rate_hz: int = 1000
+    ) -> None:
         self.instance = instance
         self.name = instance.service_name(service)
         self.service = f"halfstep/{instance.name}/{service}"
@@ -80,6 +82,7 @@ class Agreement:
         self.terms = {"protocol": str(PROTOCOL)}
         if mechanism is not None:
             self.terms["mechanism"] = f"{mechanism:#018x}"
+            self.terms["rate_hz"] = str(rate_hz)
 
     def specifier(self) -> Any:
         """The terms, for whoever creates the service."""

@@ -26,9 +26,11 @@ _SPIN_S = 0.002
 class _Newest:
     """A service of which only the newest message counts."""
 
-    def __init__(self, instance: Instance, node: Any, service: str, message: type[Message], mechanism: int) -> None:
+    def __init__(
+        self, instance: Instance, node: Any, service: str, message: type[Message], mechanism: int, rate_hz: int
+    ) -> None:
         self.message = message
-        agreement = Agreement(instance, service, iox2.MessagingPattern.Blackboard, mechanism)
+        agreement = Agreement(instance, service, iox2.MessagingPattern.Blackboard, mechanism, rate_hz)
 
         def create() -> Any:
             creator = node.service_builder(agreement.name).blackboard_creator(ctypes.c_uint64)
@@ -84,13 +86,16 @@ class _Reader(_Newest):
 class Plant:
     """The robot of an instance, for the mechanism with this fingerprint (`halfstep check` prints it)."""
 
-    def __init__(self, mechanism: int, instance: Instance | str = "default") -> None:
-        """Connects; when another plant is there `AlreadyRunning`, with another robot or version `Mismatch`."""
+    def __init__(self, mechanism: int, instance: Instance | str = "default", rate_hz: int = 1000) -> None:
+        """Connects; when another plant is there `AlreadyRunning`, with another robot, rate or version `Mismatch`.
+
+        `rate_hz` is that of the controller's `realtime.toml`.
+        """
         self.instance = instance if isinstance(instance, Instance) else Instance(instance)
         with self.instance.turn():
             self._node = self.instance.join("plant")
-            self._setpoints = _Reader(self.instance, self._node, "setpoint", Setpoint, mechanism)
-            self._measurements = _Writer(self.instance, self._node, "measurement", Measurement, mechanism)
+            self._setpoints = _Reader(self.instance, self._node, "setpoint", Setpoint, mechanism, rate_hz)
+            self._measurements = _Writer(self.instance, self._node, "measurement", Measurement, mechanism, rate_hz)
             self._measurements.take("plant")
             self._setpoints.take()
 

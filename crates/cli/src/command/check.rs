@@ -42,6 +42,7 @@ impl Check {
         let robot = self.config.robot(&mut errors);
         self.config.controller(&mut errors);
         self.config.plant(&mut errors);
+        self.config.realtime(&mut errors);
         check_others(&self.config, &mut errors);
         let facts = Facts::of(&errors.finish(robot)?);
         print(json, &facts)?;

@@ -1,17 +1,23 @@
 //! `halfstep controller`: the process that walks.
 
-use gait::Start;
+use std::path::Path;
+
+use ::record::{Note, Origin};
+use runtime::Rate;
 use wire::ControllerEnd;
 
 use super::{InstanceOption, LoopOptions, PartOptions, print};
-use crate::configuration::{ConfigOptions, Errors};
+use crate::advisor::Advisor;
+use crate::clerk::Clerk;
+use crate::configuration::{CONTROLLER, ConfigOptions, Errors};
 use crate::failure::{Failure, Outcome};
-use crate::inbox::Inbox;
+use crate::inbox::{CAPACITY, Inbox};
 use crate::interrupt::Interrupt;
+use crate::realtime;
 use crate::record;
 use crate::run_controller::run_controller;
 use crate::summary::ControllerSummary;
-use crate::turns::{Clock, Turns};
+use crate::turns::Turns;
 
 /// Run the controller alone: it waits for its plant, then walks until it is asked otherwise
 #[derive(Clone, Debug, clap::Args)]
@@ -26,6 +32,11 @@ pub struct Controller {
     part: PartOptions,
 }
 
+/// How far the threads beside the loop are below it in priority: above every ordinary thread, or requests would wait for
+/// whatever else the machine does; and a forecast takes long beside carrying a letter.
+const CLERK_BELOW: u8 = 1;
+const ADVISOR_BELOW: u8 = 2;
+
 impl Controller {
     pub fn run(self, json: bool) -> Result<Outcome, Failure> {
         self.part.bind()?;
@@ -33,25 +44,30 @@ impl Controller {
 
         let mut errors = Errors::default();
         let loaded = self.config.robot(&mut errors).zip(self.config.controller(&mut errors));
-        let (robot, mut parameters) = errors.finish(loaded)?;
-        let clock = self.runs.clock();
-        if clock == Clock::Lockstep {
-            // Operators live by the clock on the wall, and half a second in lockstep is over in a few milliseconds.
-            parameters.sources.age_limit = None;
-        }
-        let fingerprint = robot.mechanism.fingerprint;
-        let begin = if self.runs.from_stand { controller::Controller::standing } else { controller::Controller::new };
-        let mut controller =
-            begin(&robot.mechanism, robot.nominal, &parameters, Start::default()).map_err(Failure::bad_input)?;
+        let loaded = loaded.zip(self.config.realtime(&mut errors));
+        let ((robot, parameters), realtime) = errors.finish(loaded)?;
+        let (clock, rate, fingerprint) = (self.runs.clock(), realtime.rate, robot.mechanism.fingerprint);
+        let mut controller = robot.controller(parameters, clock, self.runs.from_stand)?;
 
         let ControllerEnd { mut setpoints, measurements, requests, reports } =
-            ControllerEnd::connect(&self.instance.instance()?, fingerprint)?;
-        let (mut record, record_end) = record::of_controller(clock, self.part.out.as_deref(), reports)?;
-        let mut turns = Turns::new(clock, measurements, "plant", self.runs.ticks(), interrupt);
-        let mut inbox = Inbox::new(requests);
+            ControllerEnd::connect(&self.instance.at_rate(rate)?, fingerprint)?;
+        let (mut record, record_end) = record::of_controller(clock, rate, self.recorded(rate, fingerprint)?, reports)?;
+        let mut turns = Turns::new(realtime.pace(clock), measurements, "plant", self.runs.ticks(rate), interrupt);
+        let mut inbox = Inbox::new(Clerk::new(requests, clock, CAPACITY, realtime.controller.below(CLERK_BELOW))?);
+        let mut advisor = Advisor::new(clock, realtime.controller.below(ADVISOR_BELOW));
 
-        let run = run_controller(&mut controller, &mut turns, &mut setpoints, &mut inbox, &mut record);
-        let requests = inbox.close();
+        // Last: the other threads are not to keep to the loop's core.
+        let _granted = realtime::enter(&realtime.controller, clock, "controller");
+        let run = run_controller(
+            &mut controller,
+            &mut turns,
+            &mut setpoints,
+            &mut inbox,
+            &mut advisor,
+            &mut record,
+            realtime.hold_after_misses,
+        );
+        let requests = inbox.close(&mut record);
         drop(record);
         let log_gaps = record_end.finish()?;
         let run = run.map_err(Failure::new)?;
@@ -66,5 +82,12 @@ impl Controller {
         };
         print(json, &summary)?;
         Ok(Outcome::fine_if(run.mode != Some(controller::Mode::Fallen)))
+    }
+
+    /// Where to record to, if anywhere, and what the run begins with.
+    fn recorded(&self, rate: Rate, fingerprint: u64) -> Result<Option<(&Path, Origin)>, Failure> {
+        let Some(folder) = self.part.out.as_deref() else { return Ok(None) };
+        let how = Note::new("controller", self.runs.words(&self.instance, rate, fingerprint));
+        Ok(Some((folder, Origin { notes: vec![how], files: self.config.texts(CONTROLLER)? })))
     }
 }

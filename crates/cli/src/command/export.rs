@@ -10,6 +10,7 @@ use crate::configuration::Errors;
 use crate::failure::{Failure, Outcome};
 use crate::mjcf::mjcf_text;
 use crate::python_messages::python_messages;
+use crate::realtime::RealtimeParameters;
 use crate::urdf::urdf_text;
 
 /// Write the robot for other programs
@@ -38,6 +39,9 @@ enum Format {
         /// Friction, slope, payload and integration step
         #[arg(long, value_name = "FILE", default_value = "config/plant.toml")]
         plant: PathBuf,
+        /// How many control periods there are in a second
+        #[arg(long, value_name = "FILE", default_value = "config/realtime.toml")]
+        realtime: PathBuf,
         /// Where to; stdout if absent
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
@@ -57,12 +61,13 @@ impl Export {
                 let mechanism = Mechanism::load(&mechanism).map_err(Failure::bad_input)?;
                 (urdf_text(&mechanism).map_err(Failure::new)?, out)
             }
-            Format::Mjcf { mechanism, plant, out } => {
+            Format::Mjcf { mechanism, plant, realtime, out } => {
                 let mut errors = Errors::default();
                 let mechanism = errors.note(Mechanism::load(&mechanism));
                 let parameters = errors.note(plant::Parameters::load(&plant));
-                let (mechanism, parameters) = errors.finish(mechanism.zip(parameters))?;
-                (mjcf_text(&mechanism, &parameters), out)
+                let realtime = errors.note(RealtimeParameters::load(&realtime));
+                let ((mechanism, parameters), realtime) = errors.finish(mechanism.zip(parameters).zip(realtime))?;
+                (mjcf_text(&mechanism, &parameters, realtime.rate.period_s()), out)
             }
             Format::Python { out } => (python_messages(), out),
         };

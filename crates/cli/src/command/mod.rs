@@ -1,11 +1,14 @@
 //! The commands, one per file.
 
+mod bench;
 mod check;
 mod controller;
 mod export;
 mod import;
 mod paper;
 mod plant;
+mod plot;
+mod replay;
 mod send;
 mod stream;
 mod synthesize;
@@ -16,12 +19,13 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
+use runtime::Rate;
 use serde::Serialize;
 use wire::{Instance, InstanceName};
 
 use crate::failure::{Failure, Outcome};
 use crate::process::end_with_parent;
-use crate::turns::{Clock, PERIOD};
+use crate::turns::Clock;
 
 /// Walk a 20-joint biped from one nominal half-step, and bend it while it walks.
 #[derive(Debug, Parser)]
@@ -44,8 +48,11 @@ enum Command {
     Synthesize(synthesize::Synthesize),
     Paper(paper::Paper),
     Check(check::Check),
+    Bench(bench::Bench),
     Export(export::Export),
     Import(import::Import),
+    Plot(plot::Plot),
+    Replay(replay::Replay),
 }
 
 impl Halfstep {
@@ -64,8 +71,11 @@ impl Halfstep {
             Command::Synthesize(synthesize) => synthesize.run(json),
             Command::Paper(paper) => paper.run(json),
             Command::Check(check) => check.run(json),
+            Command::Bench(bench) => bench.run(json),
             Command::Export(export) => export.run(),
             Command::Import(import) => import.run(json),
+            Command::Plot(plot) => plot.run(json),
+            Command::Replay(replay) => replay.run(json),
         }
     }
 }
@@ -81,6 +91,10 @@ struct InstanceOption {
 impl InstanceOption {
     fn instance(&self) -> Result<Instance, Failure> {
         Ok(Instance::new(self.instance.as_str())?)
+    }
+
+    fn at_rate(&self, rate: Rate) -> Result<Instance, Failure> {
+        Ok(self.instance()?.with_rate_hz(rate.hz()))
     }
 }
 
@@ -99,19 +113,32 @@ struct LoopOptions {
 }
 
 impl LoopOptions {
-    fn ticks(&self) -> Option<u64> {
-        self.duration.map(|duration| (duration.as_secs_f64() / PERIOD.as_secs_f64()).round() as u64)
+    fn ticks(&self, rate: Rate) -> Option<u64> {
+        self.duration.map(|duration| rate.ticks(duration).max(1))
     }
 
     fn clock(&self) -> Clock {
         if self.lockstep { Clock::Lockstep } else { Clock::Realtime }
+    }
+
+    /// How a process of a pair was started, for its recording.
+    fn words(&self, instance: &InstanceOption, rate: Rate, fingerprint: u64) -> [(&'static str, String); 7] {
+        [
+            ("version", env!("CARGO_PKG_VERSION").to_owned()),
+            ("protocol", wire::PROTOCOL.to_string()),
+            ("mechanism", format!("{fingerprint:#018x}")),
+            ("instance", instance.instance.to_string()),
+            ("clock", self.clock().text().to_owned()),
+            ("rate_hz", rate.hz().to_string()),
+            ("from_stand", self.from_stand.to_string()),
+        ]
     }
 }
 
 /// What only the processes of a pair need.
 #[derive(Clone, Debug, Args)]
 struct PartOptions {
-    /// Write the log of the run into this folder
+    /// Record the run into this folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// The process that started this one, and with which it ends
@@ -125,9 +152,12 @@ impl PartOptions {
     }
 }
 
+/// The control period, if nobody chose another.
+const DURATION_MIN: Duration = Duration::from_millis(1);
+
 fn duration(text: &str) -> Result<Duration, String> {
     let duration = humantime::parse_duration(text).map_err(|error| format!("{error}; write e.g. 20s or 2min"))?;
-    if duration < PERIOD { Err("must be at least 1ms, one control period".to_owned()) } else { Ok(duration) }
+    if duration < DURATION_MIN { Err("must be at least 1ms, one control period".to_owned()) } else { Ok(duration) }
 }
 
 /// Prints a value for a program or for a person.

@@ -5,6 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use ::record::{RUN_FILE, files_of, merge};
+use runtime::Rate;
 use wire::{
     ConnectError, Instance, InstanceName, Intent, Leftovers, ObserverEnd, OperatorEnd, Request, Source, Verdict,
 };
@@ -21,10 +23,9 @@ use crate::progress::Progress;
 use crate::run_log::RunLog;
 use crate::script::{Reader, ScriptError, Step};
 use crate::summary::{ControllerSummary, PlantSummary, WalkSummary};
-use crate::turns::{Clock, PERIOD};
 use crate::words;
 
-/// Walk: controller and plant as two processes, commands from a script, a log and pictures
+/// Walk: controller and plant as two processes, commands from a script, a recording and pictures
 #[derive(Clone, Debug, clap::Args)]
 pub struct Walk {
     #[command(flatten)]
@@ -34,7 +35,7 @@ pub struct Walk {
     /// Commands, one JSON object per line as for `stream`; a gentle mix is built in
     #[arg(long, value_name = "FILE")]
     commands: Option<PathBuf>,
-    /// Folder for log, summary and pictures; the next free one in runs/ if absent
+    /// Folder for recording, summary and pictures; the next free one in runs/ if absent
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Seed of the sensors' noise and of the errors of mass
@@ -75,8 +76,10 @@ impl Walk {
         let robot = self.config.robot(&mut errors);
         self.config.controller(&mut errors);
         self.config.plant(&mut errors);
+        let realtime = self.config.realtime(&mut errors);
         ConfigOptions::disturbances(self.disturbances.as_deref(), &mut errors);
-        let steps = self.steps(&mut errors);
+        let rate = realtime.map(|realtime| realtime.rate).unwrap_or_default();
+        let steps = self.steps(rate, &mut errors);
         let (robot, mut steps) = errors.finish(robot.zip(steps))?;
         if self.runs.from_stand {
             let walk = Request { intent: Some(Intent::Walk), ..Request::by(Source::Script) };
@@ -91,20 +94,20 @@ impl Walk {
         }
         let folder = self.folder()?;
 
-        let mut walking = self.start(&instance, &folder, &steps)?;
-        walking.watch(Progress::new(self.runs.ticks()), &interrupt)?;
+        let mut walking = self.start(&instance, &folder, &steps, rate)?;
+        walking.watch(Progress::new(self.runs.ticks(rate), rate), &interrupt, rate)?;
         let (controller, plant) = walking.finish()?;
 
-        let summary = self.conclude(&robot, &instance, &folder, &controller, &plant)?;
+        let summary = self.conclude(&robot, rate, &instance, &folder, &controller, &plant)?;
         print(json, &summary)?;
         if !json {
-            print_line(format_args!("log, summary.json and pictures are in {}", folder.display()))?;
+            print_line(format_args!("run.mcap, summary.json and pictures are in {}", folder.display()))?;
         }
         Ok(Outcome::fine_if(summary.measures.falls == 0))
     }
 
     /// The script, as far as this walk gets.
-    fn steps(&self, errors: &mut Errors) -> Option<Vec<Step>> {
+    fn steps(&self, rate: Rate, errors: &mut Errors) -> Option<Vec<Step>> {
         let steps = match &self.commands {
             None => Reader::read_all("built-in commands", DEMO),
             Some(file) => {
@@ -113,7 +116,7 @@ impl Walk {
                 Reader::read_all(name, &text)
             }
         };
-        let is_reached = |step: &Step| self.runs.ticks().is_none_or(|ticks| step.tick() < ticks);
+        let is_reached = |step: &Step| self.runs.ticks(rate).is_none_or(|ticks| step.tick(rate) < ticks);
         match steps {
             Ok(steps) => Some(steps.into_iter().filter(is_reached).collect()),
             Err(wrong) => {
@@ -145,12 +148,12 @@ impl Walk {
 
     /// Starts the controller, asks it for everything that is to come, and only then starts the plant, which begins the
     /// walk: so every request is there in time.
-    fn start(&self, instance: &Instance, folder: &Path, steps: &[Step]) -> Result<Walking, Failure> {
+    fn start(&self, instance: &Instance, folder: &Path, steps: &[Step], rate: Rate) -> Result<Walking, Failure> {
         let leftovers = instance.leftovers();
         let mut controller = Process::start("controller", self.arguments(instance, folder))?;
         let operator = connect_operator(instance, &mut controller)?;
         let observer = ObserverEnd::connect(instance)?;
-        let mut operator = Operator::new(operator, steps);
+        let mut operator = Operator::new(operator, steps, rate);
         operator.send()?;
         let mut of_plant = self.arguments(instance, folder);
         of_plant.extend(["--end-when-fallen".into(), "--seed".into(), self.seed.to_string().into()]);
@@ -182,13 +185,19 @@ impl Walk {
     fn conclude(
         &self,
         robot: &Robot,
+        rate: Rate,
         instance: &Instance,
         folder: &Path,
         controller: &ControllerSummary,
         plant: &PlantSummary,
     ) -> Result<WalkSummary, Failure> {
-        let log = RunLog::read(folder)?;
-        let duration_s = plant.ticks as f64 * PERIOD.as_secs_f64();
+        let parts = files_of(folder)?;
+        let whole = folder.join(RUN_FILE);
+        merge(&parts, &whole)?;
+        // They hold nothing more.
+        parts.iter().for_each(|part| drop(fs::remove_file(part)));
+        let log = RunLog::read(&whole)?;
+        let duration_s = rate.time(plant.ticks);
         let summary = WalkSummary {
             measures: log.measures(&robot.mechanism),
             requests: controller.requests,
@@ -196,10 +205,7 @@ impl Walk {
             seed: self.seed,
             plant: self.plant.name(),
             instance: instance.name().to_string(),
-            clock: match self.runs.clock() {
-                Clock::Realtime => "realtime",
-                Clock::Lockstep => "lockstep",
-            },
+            clock: self.runs.clock().text(),
             deadline_misses: controller.deadline_misses + plant.deadline_misses,
             log_gaps: controller.log_gaps + plant.log_gaps,
             real_time_factor: if plant.wall_s > 0.0 { duration_s / plant.wall_s } else { 0.0 },
@@ -207,16 +213,7 @@ impl Walk {
         let text = serde_json::to_string_pretty(&summary).map_err(Failure::new)?;
         let file = folder.join("summary.json");
         fs::write(&file, text + "\n").map_err(|error| Failure::new(format!("{}: {error}", file.display())))?;
-        let pictures = [
-            ("footprints.svg", picture::footprints(&log, &robot.mechanism)),
-            ("balance_over_time.svg", picture::balance_over_time(&log, &robot.mechanism)),
-            ("margin_over_time.svg", picture::margin_over_time(&log, &robot.mechanism)),
-            ("compensation_over_time.svg", picture::compensation_over_time(&log, &robot.mechanism)),
-            ("zmp_over_time.svg", picture::zmp_over_time(&log, &robot.mechanism)),
-            ("zmp_in_sole.svg", picture::zmp_in_sole(&log, &robot.mechanism)),
-            ("stick_walk.svg", picture::stick_walk(&log, &robot.mechanism)),
-        ];
-        write_pictures(folder, &pictures)?;
+        write_pictures(folder, &picture::of_run(&log, &robot.mechanism))?;
         Ok(summary)
     }
 }
@@ -235,7 +232,7 @@ fn connect_operator(instance: &Instance, controller: &mut Process) -> Result<Ope
 
 impl Walking {
     /// Shows the walk until one of the processes ends, or this one is asked to.
-    fn watch(&mut self, progress: Progress, interrupt: &Interrupt) -> Result<(), Failure> {
+    fn watch(&mut self, progress: Progress, interrupt: &Interrupt, rate: Rate) -> Result<(), Failure> {
         while !(self.plant.has_ended()? || self.controller.has_ended()?) {
             if interrupt.is_raised() {
                 self.plant.end();
@@ -243,7 +240,7 @@ impl Walking {
                 break;
             }
             self.operator.send()?;
-            self.tell_objections(&progress);
+            self.tell_objections(&progress, rate);
             let mut newest = None;
             while let Some(report) = self.observer.reports.next_report()? {
                 newest = Some(report);
@@ -253,15 +250,15 @@ impl Walking {
             }
             std::thread::sleep(GLANCE);
         }
-        self.tell_objections(&progress);
+        self.tell_objections(&progress, rate);
         Ok(())
     }
 
     /// Says what was not granted as asked.
-    fn tell_objections(&mut self, progress: &Progress) {
+    fn tell_objections(&mut self, progress: &Progress, rate: Rate) {
         while let Some((request, reply)) = self.operator.next_reply() {
             if reply.verdict != Verdict::Accepted {
-                let time = request.not_before as f64 * PERIOD.as_secs_f64();
+                let time = rate.time(request.not_before);
                 progress.say(&format!("at {time:.2} s: {}", words::reply(&request, &reply)));
             }
         }

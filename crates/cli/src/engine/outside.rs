@@ -10,7 +10,6 @@ use serde::{Deserialize, Serialize};
 
 use super::record::{self, SETPOINT, STATE};
 use crate::mjcf::mjcf_text;
-use crate::turns::PERIOD;
 
 /// The version of what is said to engines.
 const PROTOCOL: u32 = 1;
@@ -101,10 +100,10 @@ pub enum EngineError {
     )]
     Mismatch(String),
     /// It does not simulate any more.
-    #[error("the engine's state after {periods} ms is not finite, or its orientation is none")]
+    #[error("the engine's state after {time} s is not finite, or its orientation is none")]
     NotFinite {
-        /// Control periods.
-        periods: u64,
+        /// Since the start [s].
+        time: f64,
     },
 }
 
@@ -119,6 +118,7 @@ impl Setup {
         disturbances: &Disturbances,
         start: &Motion,
         seed: u64,
+        period: f64,
     ) -> Result<Self, EngineError> {
         if parameters.unevenness.height > 0.0 {
             return Err(EngineError::Uneven { height: parameters.unevenness.height });
@@ -129,8 +129,8 @@ impl Setup {
         let orientation = robot.sole_to_world.rotation;
         Ok(Self {
             protocol: PROTOCOL,
-            mjcf: mjcf_text(&built, parameters),
-            period_s: PERIOD.as_secs_f64(),
+            mjcf: mjcf_text(&built, parameters, period),
+            period_s: period,
             steps_per_period: parameters.steps_per_period,
             joints: motors().map(|(joint, _)| joint.name()).collect(),
             stiffness: motors().map(|(joint, _)| parameters.servo[joint].stiffness).collect(),
@@ -197,8 +197,7 @@ impl OutsideEngine {
         self.send(&record::setpoint(setpoint))?;
         let mut state = [0; STATE * size_of::<f64>()];
         self.states.read_exact(&mut state).map_err(EngineError::Ended)?;
-        let periods = (plant.time() / PERIOD.as_secs_f64()).round() as u64 + 1;
-        let outcome = record::outcome(&state).ok_or(EngineError::NotFinite { periods })?;
+        let outcome = record::outcome(&state).ok_or(EngineError::NotFinite { time: plant.time() })?;
         Ok(plant.adopt(outcome))
     }
 

@@ -7,3 +7,5 @@ pub mod request;
 pub mod row;
 pub mod setpoint;
 pub mod source;
+pub mod tick;
+pub mod truth;

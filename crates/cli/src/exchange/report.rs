@@ -122,7 +122,19 @@ mod tests {
                 faults: Faults::default(),
                 answer: None,
             };
-            let entry = ControllerEntry { tick: 0, time_ns: 0, compute_ns: 0, late: false, missed: 0, report };
+            let entry = ControllerEntry {
+                tick: 0,
+                periods: 1,
+                dt: 0.001,
+                time_ns: 0,
+                compute_ns: 0,
+                late: false,
+                missed: 0,
+                measurement: <wire::MeasurementMessage as wire::Newest>::NOTHING,
+                request: 0,
+                returned: record::Returned::No,
+                report,
+            };
             message(&entry).checked().unwrap()
         };
         let (right, left) = (of(Side::Right), of(Side::Left));

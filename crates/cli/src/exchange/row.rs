@@ -1,58 +1,69 @@
-//! Rows of the run's log, controller and plant → log.
+//! Rows of a run's log, recording → log.
 
-use controller::Mode;
+use balance::CentreOfMass;
+use controller::AddedAngles;
+use model::{PerJoint, Side};
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector2, Vector3};
+use record::{TickMessage, TruthMessage};
+use wire::Report;
 
-use crate::exchange::report::{faults, mode};
-use crate::record::{ControllerEntry, PlantEntry};
 use crate::run_log::{ControllerRow, PlantRow};
-use crate::turns::PERIOD;
 
-/// What the controller has to tell of a tick, for the log.
-pub fn of_controller(entry: &ControllerEntry) -> ControllerRow {
-    let ControllerEntry { tick, compute_ns, late, missed, ref report, .. } = *entry;
-    let is_planned = report.mode != Mode::Fallen;
+/// What the controller told of a tick, at a time [s]. In the log it stands on its right foot, as within the controller.
+pub fn of_controller(time: f64, tick: &TickMessage, report: &Report) -> ControllerRow {
+    let sign = match report.support {
+        Side::Right => 1.0,
+        Side::Left => -1.0,
+    };
+    let point = |[x, y]: [f64; 2]| Vector2::new(x, sign * y);
+    let vector = |[x, y, z]: [f64; 3]| Vector3::new(x, sign * y, z);
+    let rotation = |x: f64, y: f64| Vector2::new(sign * x, y);
+    let centre_of_mass = |position: Option<[f64; 3]>, velocity: Option<[f64; 3]>| {
+        let (position, velocity) = position.zip(velocity)?;
+        Some(CentreOfMass { position: vector(position), velocity: vector(velocity) })
+    };
     ControllerRow {
-        time: time(tick),
-        tick,
-        mode: mode(report.mode).text().to_owned(),
-        support: report.half_step.support,
-        half_step: report.half_step.index,
-        progress: report.half_step.progress,
+        time,
+        tick: tick.tick,
+        mode: report.mode.text().to_owned(),
+        support: report.support,
+        half_step: report.half_step,
+        progress: report.progress,
         speed: report.speed,
-        turn_command: report.command.turn,
-        speed_command: report.command.speed,
-        extension_command: report.command.extension,
-        zmp_measured: report.zmp_in_support,
-        zmp_planned: Some(report.zmp_planned).filter(|_| is_planned),
-        margin: Some(report.margin).filter(|margin| margin.is_finite()),
-        lean_roll: report.lean.x,
-        lean_pitch: report.lean.y,
-        added: report.added,
-        com_planned: Some(report.com_planned).filter(|_| is_planned),
-        com_measured: report.com_sensed,
-        faults: faults(report.faults, late),
-        compute_ns,
-        missed,
+        turn_command: report.turn,
+        speed_command: tick.speed_in_force,
+        extension_command: report.extension,
+        zmp_measured: report.zmp_in_support.map(point),
+        zmp_planned: report.zmp_planned.map(point),
+        margin: report.margin,
+        lean_roll: sign * report.lean[0],
+        lean_pitch: report.lean[1],
+        added: report.added.map(|[ankle_roll, ankle_pitch, waist_roll, waist_pitch]| AddedAngles {
+            ankle: rotation(ankle_roll, ankle_pitch),
+            waist: rotation(waist_roll, waist_pitch),
+        }),
+        com_planned: centre_of_mass(report.com_planned, report.com_velocity_planned),
+        com_measured: centre_of_mass(report.com_in_support, report.com_velocity_in_support),
+        faults: report.faults,
+        compute_ns: report.compute_ns,
+        missed: report.missed.into(),
     }
 }
 
-/// What the plant has to tell of a tick, for the log.
-pub fn of_plant(entry: &PlantEntry) -> PlantRow {
-    let PlantEntry { tick, angles, ref truth } = *entry;
+/// What the plant was in a tick, at a time [s].
+pub fn of_plant(time: f64, truth: &TruthMessage) -> PlantRow {
+    let [x, y, z, qw, qx, qy, qz] = truth.right_sole;
+    // It was one when it was recorded; making it one again would change its last bits.
+    let rotation = UnitQuaternion::new_unchecked(Quaternion::new(qw, qx, qy, qz));
     PlantRow {
-        time: time(tick),
-        tick,
-        right_sole_to_world: truth.soles[0],
-        angles,
+        time,
+        tick: truth.tick,
+        right_sole_to_world: Isometry3::from_parts(Translation3::new(x, y, z), rotation),
+        angles: PerJoint(truth.angles),
         loads: truth.loads,
-        com_in_world: truth.com,
-        zmp_in_world: truth.zmp,
+        com_in_world: truth.com.into(),
+        zmp_in_world: Some(Vector2::from(truth.zmp)).filter(|zmp| zmp.iter().all(|value| value.is_finite())),
         trunk_tilt: truth.trunk_tilt,
-        fallen: truth.has_fallen(),
+        fallen: truth.fallen != 0,
     }
-}
-
-/// Since the start [s].
-fn time(tick: u64) -> f64 {
-    tick as f64 * PERIOD.as_secs_f64()
 }

@@ -6,6 +6,7 @@ use gait::TurnPhase;
 
 use super::Figure;
 use super::table::{agreement, lean_text, number, summary, verdict};
+use crate::html::{as_address, escaped};
 
 const HEAD: &str = "<!DOCTYPE html>
 <html lang=\"en\">
@@ -93,26 +94,4 @@ fn caption(html: &mut String, figure: &Figure, picture: &str) {
         number = scenario.figure,
         source = as_address(picture),
     );
-}
-
-/// An SVG as an address, so that no picture's names get in another one's way.
-fn as_address(svg: &str) -> String {
-    let mut address = "data:image/svg+xml,".to_owned();
-    for character in svg.chars() {
-        match character {
-            '"' => address += "%22",
-            '#' => address += "%23",
-            '%' => address += "%25",
-            '<' => address += "%3C",
-            '>' => address += "%3E",
-            '&' => address += "%26",
-            '\n' => address += "%0A",
-            other => address.push(other),
-        }
-    }
-    address
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -40,6 +40,8 @@ pub struct Chart {
     /// Quantity and unit of the horizontal axis; empty when it is another panel's.
     pub x_label: String,
     y_label: String,
+    /// Whether equal distances along x are equal ratios.
+    pub log_x: bool,
     plots: Vec<Plot>,
     legend: Vec<LegendEntry>,
     levels: Vec<ReferenceLine>,
@@ -73,6 +75,7 @@ impl Chart {
         Self {
             x_label: x_label.into(),
             y_label: y_label.into(),
+            log_x: false,
             plots: Vec::new(),
             legend: Vec::new(),
             levels: Vec::new(),
@@ -173,6 +176,9 @@ impl Chart {
             .with_y_label(&self.y_label)
             .with_font_family("Helvetica, Arial, sans-serif")
             .with_scale(letters);
+        if self.log_x {
+            layout = layout.with_log_x();
+        }
         for line in self.levels.drain(..) {
             layout = layout.with_reference_line(line);
         }

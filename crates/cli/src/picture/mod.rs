@@ -14,6 +14,7 @@ mod nominal_footprints;
 mod nominal_stick;
 mod paper_figure;
 mod sole_outline;
+mod spread_of_times;
 mod stick_walk;
 mod sticks;
 mod stretch;
@@ -22,7 +23,7 @@ mod time_panel;
 mod zmp_in_sole;
 mod zmp_over_time;
 
-use model::Side;
+use model::{Mechanism, Side};
 
 pub use balance_over_time::balance_over_time;
 pub use compensation_over_time::compensation_over_time;
@@ -31,9 +32,25 @@ pub use margin_over_time::margin_over_time;
 pub use nominal_footprints::nominal_footprints;
 pub use nominal_stick::nominal_stick;
 pub use paper_figure::paper_figure;
+pub use spread_of_times::spread_of_times;
 pub use stick_walk::stick_walk;
 pub use zmp_in_sole::zmp_in_sole;
 pub use zmp_over_time::zmp_over_time;
+
+use crate::run_log::RunLog;
+
+/// All pictures of a run, each with the name of its file.
+pub fn of_run(log: &RunLog, mechanism: &Mechanism) -> [(&'static str, String); 7] {
+    [
+        ("footprints.svg", footprints(log, mechanism)),
+        ("balance_over_time.svg", balance_over_time(log, mechanism)),
+        ("margin_over_time.svg", margin_over_time(log, mechanism)),
+        ("compensation_over_time.svg", compensation_over_time(log, mechanism)),
+        ("zmp_over_time.svg", zmp_over_time(log, mechanism)),
+        ("zmp_in_sole.svg", zmp_in_sole(log, mechanism)),
+        ("stick_walk.svg", stick_walk(log, mechanism)),
+    ]
+}
 
 const RIGHT: &str = "#0072B2";
 const LEFT: &str = "#D55E00";
@@ -57,22 +74,13 @@ const fn colour(side: Side) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run_log::{RunLog, synthetic};
+    use crate::run_log::synthetic;
 
     #[test]
     fn a_run_that_ended_before_it_began_or_at_once_has_pictures() {
         let mechanism = synthetic::mechanism();
         for log in [RunLog::default(), synthetic::log(0, 0.0)] {
-            for picture in [
-                balance_over_time,
-                compensation_over_time,
-                footprints,
-                margin_over_time,
-                stick_walk,
-                zmp_in_sole,
-                zmp_over_time,
-            ] {
-                let svg = picture(&log, &mechanism);
+            for (_, svg) in of_run(&log, &mechanism) {
                 assert!(svg.starts_with("<svg") && !svg.contains("NaN") && !svg.contains("inf"), "{svg}");
             }
         }

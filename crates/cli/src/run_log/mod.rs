@@ -1,8 +1,8 @@
-//! The log of a run: what the plant was and what the controller said at every tick, as two CSV files in one folder.
+//! The log of a run, as pictures and the summary are made from it: what the plant was and what the controller said at every
+//! tick, read from a recording.
 //!
-//! Both begin with a line of column names that carry units; angles that people command are in degrees there, joint
-//! angles in radians as in the nominal table. Pictures and the summary are made from the log alone, so that they can be
-//! made again at any time.
+//! As CSV files, for spreadsheets, it begins with a line of column names that carry units; angles that people command are in
+//! degrees there, joint angles in radians as in the nominal table.
 
 mod columns;
 mod fall;
@@ -16,8 +16,12 @@ pub(crate) mod synthetic;
 
 use std::path::Path;
 
+use ::record::{Event, RecordError, Recording, TickMessage, files_of};
+
+use crate::exchange;
+
 pub use fall::Fall;
-pub use file::{RowWriter, RunLogError, read_rows};
+pub use file::write_rows;
 pub use footprint::Footprint;
 pub use measures::Measures;
 pub use rows::{ControllerRow, PlantRow, Row};
@@ -32,12 +36,34 @@ pub struct RunLog {
 }
 
 impl RunLog {
-    /// Reads both files of the folder `dir`. A last line that a crash cut off is an error like any other.
+    /// Reads a run: a recording, or the folder that holds it. What was cut off is said on stderr, and the rest is read.
     ///
     /// # Errors
-    /// See [`RunLogError`]: it names the file and the line.
-    pub fn read(dir: &Path) -> Result<Self, RunLogError> {
-        Ok(Self { plant: read_rows(dir)?, controller: read_rows(dir)? })
+    /// There is no recording, or one of another version.
+    pub fn read(run: &Path) -> Result<Self, RecordError> {
+        let mut log = Self::default();
+        for file in files_of(run)? {
+            let mut recording = Recording::open(&file)?;
+            let mut tick = TickMessage::default();
+            while let Some(stamped) = recording.next_event()? {
+                match stamped.event {
+                    Event::Tick(message) => tick = message,
+                    // The controller writes no nonsense; a tick that is lost leaves a gap that every picture bears.
+                    Event::Report(message) => {
+                        let row = message
+                            .checked()
+                            .map(|report| exchange::row::of_controller(stamped.time(), &tick, &report));
+                        log.controller.extend(row);
+                    }
+                    Event::Truth(message) => log.plant.push(exchange::row::of_plant(stamped.time(), &message)),
+                    _ => {}
+                }
+            }
+            if let Some(cut) = recording.cut() {
+                eprintln!("{cut}");
+            }
+        }
+        Ok(log)
     }
 
     /// The plant at a time [s] or at the first tick after it; `None` after the end.

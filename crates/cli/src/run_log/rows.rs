@@ -4,17 +4,16 @@ use balance::CentreOfMass;
 use controller::AddedAngles;
 use model::{Joint, JointVector, Side};
 use nalgebra::{Isometry3, Vector2, Vector3};
-use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::columns;
 
 /// A foot with a smaller share of the other's load only touches.
 const UNLOADED_SHARE: f64 = 0.02;
 
-/// A line of one of the log's files.
-pub trait Row: Serialize + DeserializeOwned {
-    /// Name of the file within the run's folder.
+/// A line of one of the log's CSV files.
+pub trait Row: Serialize {
+    /// Name of the file within its folder.
     const FILE: &str;
 
     /// The names of the columns, in the order of the fields; each vector takes as many as it has components.
@@ -22,35 +21,35 @@ pub trait Row: Serialize + DeserializeOwned {
 }
 
 /// The simulated robot at one tick: the truth, not what its sensors say.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlantRow {
     /// Since the start of the run [s].
     pub time: f64,
     /// Ticks since the start.
     pub tick: u64,
     /// Pose of the right sole: maps sole coordinates to world coordinates.
-    #[serde(with = "columns::pose")]
+    #[serde(serialize_with = "columns::pose")]
     pub right_sole_to_world: Isometry3<f64>,
     /// Of the physical joints [rad].
-    #[serde(with = "columns::joints")]
+    #[serde(serialize_with = "columns::joints")]
     pub angles: JointVector,
     /// Vertical force of the ground on the right and on the left foot [N].
     pub loads: [f64; 2],
     /// Centre of mass in the world [m].
-    #[serde(with = "columns::vector")]
+    #[serde(serialize_with = "columns::vector")]
     pub com_in_world: Vector3<f64>,
     /// Where the ground reaction of both feet acts on the floor, in the world [m]; `None` in the air.
-    #[serde(with = "columns::maybe_point")]
+    #[serde(serialize_with = "columns::maybe_point")]
     pub zmp_in_world: Option<Vector2<f64>>,
     /// Angle of the trunk against the vertical [rad].
     pub trunk_tilt: f64,
     /// Whether the robot has fallen.
-    #[serde(with = "columns::flag")]
+    #[serde(serialize_with = "columns::flag")]
     pub fallen: bool,
 }
 
 /// What the controller said at one tick.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ControllerRow {
     /// Since the start of the run [s].
     pub time: f64,
@@ -67,35 +66,35 @@ pub struct ControllerRow {
     /// `c` of this instant, on its ramp to the one in force.
     pub speed: f64,
     /// `α` in force [rad]; degrees in the file.
-    #[serde(with = "columns::degrees")]
+    #[serde(serialize_with = "columns::degrees")]
     pub turn_command: f64,
     /// `c` in force.
     pub speed_command: f64,
     /// `β` in force [rad]; degrees in the file.
-    #[serde(with = "columns::degrees")]
+    #[serde(serialize_with = "columns::degrees")]
     pub extension_command: f64,
     /// Measured ZMP in support coordinates [m]; `None` when the feet carry too little.
-    #[serde(with = "columns::maybe_point")]
+    #[serde(serialize_with = "columns::maybe_point")]
     pub zmp_measured: Option<Vector2<f64>>,
     /// Planned ZMP, likewise; `None` when there is no plan.
-    #[serde(with = "columns::maybe_point")]
+    #[serde(serialize_with = "columns::maybe_point")]
     pub zmp_planned: Option<Vector2<f64>>,
     /// Signed distance of the measured ZMP to the edge of what bears [m], negative outside; `None` without ground.
     pub margin: Option<f64>,
     /// Feedback at the support ankle about x [rad]; degrees in the file.
-    #[serde(with = "columns::degrees")]
+    #[serde(serialize_with = "columns::degrees")]
     pub lean_roll: f64,
     /// Feedback at the support ankle about y [rad]; degrees in the file.
-    #[serde(with = "columns::degrees")]
+    #[serde(serialize_with = "columns::degrees")]
     pub lean_pitch: f64,
     /// What the plan adds to the plain sum of the modifications [rad], degrees in the file; `None` when it is not known.
-    #[serde(with = "columns::added_angles")]
+    #[serde(serialize_with = "columns::added_angles")]
     pub added: Option<AddedAngles>,
     /// Planned centre of mass in support coordinates; `None` when there is no plan.
-    #[serde(with = "columns::centre_of_mass")]
+    #[serde(serialize_with = "columns::centre_of_mass")]
     pub com_planned: Option<CentreOfMass>,
     /// Sensed centre of mass, likewise; `None` when the feet carry too little, and in the tick of a swap.
-    #[serde(with = "columns::centre_of_mass")]
+    #[serde(serialize_with = "columns::centre_of_mass")]
     pub com_measured: Option<CentreOfMass>,
     /// One bit for each fault present.
     pub faults: u32,

@@ -1,0 +1,242 @@
+//! What is computed: a configuration, a step of the plant, a tick, a plan.
+//!
+//! Everything takes turns in rounds, and the least of the rounds counts. What is shorter than looking at the clock is timed
+//! in batches: its spread is that of the batches' means.
+
+use std::hint::black_box;
+use std::sync::Arc;
+use std::time::Duration;
+
+use balance::Preview;
+use controller::{Asked, Controller, Lasting, Measurement, Source, TickReport};
+use dynamics::{ArticulatedBody, NewtonEuler, Tree, zmp};
+use gait::{NominalTable, Start, Walk};
+use model::{JointVector, Mechanism, Motion, PerJoint};
+use nalgebra::{Isometry3, Vector3};
+use plant::{Plant, Setpoint};
+use runtime::{Scheduling, now_ns};
+
+use crate::{BenchError, Findings, Machine, Over, Ratio, Series};
+
+/// What is walked, and how it is measured.
+#[derive(Clone, Debug)]
+pub struct ComputeOptions {
+    /// The robot.
+    pub mechanism: Mechanism,
+    /// Its half-step.
+    pub nominal: Arc<NominalTable>,
+    /// As configured.
+    pub controller: controller::Parameters,
+    /// As configured.
+    pub plant: plant::Parameters,
+    /// How often everything takes turns.
+    pub rounds: u32,
+    /// How long a turn lasts.
+    pub turn: Duration,
+    /// The control period [s].
+    pub period: f64,
+    /// What is asked of the system; an ordinary thread is enough.
+    pub scheduling: Scheduling,
+}
+
+/// Something to time.
+struct Work<'w> {
+    series: Series,
+    /// How many calls are timed together.
+    batch: u32,
+    /// Does it once and gives the part of the time that counts [ns], or `None` for all of it.
+    run: Box<dyn FnMut() -> Option<u64> + 'w>,
+}
+
+/// Simulated time after which the walk begins anew [control periods].
+const WALK: u64 = 20_000;
+/// How much of the walk is not timed: caches, and the predictions of branches.
+const WARM_UP: u64 = 2000;
+
+/// Measures everything.
+///
+/// # Errors
+/// The nominal does not walk.
+pub fn compute(options: &ComputeOptions) -> Result<Findings, BenchError> {
+    let _granted = options.scheduling.ask();
+    let mut works = works(options)?;
+    for _ in 0..options.rounds {
+        for work in &mut works {
+            work.turn(options.turn);
+        }
+    }
+    let series: Vec<Series> = works.into_iter().map(|work| work.series).collect();
+    let tick = series.iter().find(|series| series.name == TICK);
+    let ratios = tick.map(|tick| Ratio {
+        of: format!("p99 of {TICK}"),
+        to: "its p50".to_owned(),
+        number: "time".to_owned(),
+        ratio: tick.quantile(0.99) / tick.quantile(0.5),
+        at_most: 1.5,
+    });
+    let notes = vec![format!("Each number is the least of {} rounds that take turns.", options.rounds)];
+    let machine = Machine::of_this_process();
+    Ok(Findings { what: "compute", machine, series, ratios: ratios.into_iter().collect(), notes })
+}
+
+const TICK: &str = "controller tick, walking";
+
+/// What is timed, in the order of the table.
+fn works(options: &ComputeOptions) -> Result<Vec<Work<'static>>, BenchError> {
+    let ComputeOptions { mechanism, nominal, controller, plant, period, .. } = options.clone();
+    let no_walk = |error| BenchError::new("the walk", error);
+    let tree = Tree::new(&mechanism);
+    let motion = motion();
+
+    let (of_tree, mut inverse) = (tree.clone(), NewtonEuler::default());
+    let newton_euler = move || {
+        inverse.stand(&of_tree, black_box(&motion));
+        black_box(zmp(&inverse.ground));
+    };
+    let mut body = ArticulatedBody::default();
+    let forward_dynamics = move || {
+        let motion = black_box(&motion);
+        body.set_state(&tree, &Isometry3::identity(), Vector3::x(), Vector3::y(), &motion.angles, &motion.rates);
+        black_box(body.accelerations(&tree, &motion.accelerations, &JointVector::ZERO, &[]));
+    };
+    let mut standing = Plant::new(&mechanism, &plant, &Motion::default(), period, 1);
+    let plant_period = move || {
+        black_box(standing.step(black_box(&Setpoint::default())));
+    };
+    let walk = Walk::new(nominal.clone(), &mechanism, &controller.gait, Start::default()).map_err(no_walk)?;
+    let half_step = nominal.duration;
+    let mut preview = Preview::new(&mechanism, walk.clone());
+    let plan = move || {
+        black_box(preview.advance(black_box(half_step)));
+    };
+
+    let start = walk.physical_motion();
+    let begin = move || -> Result<(Controller, Plant), BenchError> {
+        let walking = Controller::new(&mechanism, nominal.clone(), &controller, Start::default());
+        Ok((
+            walking.map_err(|error| BenchError::new("the walk", error))?,
+            Plant::new(&mechanism, &plant, &start, period, 1),
+        ))
+    };
+    let forecast = forecast_timed(begin()?, period);
+    let tick = walk_timed(begin()?, period, begin);
+
+    Ok(vec![
+        Work::batched("Newton–Euler and ZMP, one configuration", newton_euler),
+        Work::batched("forward dynamics, floating base", forward_dynamics),
+        Work::batched("plant, a control period on both soles", plant_period),
+        tick,
+        Work::single("preview, plan of a half-step", plan),
+        forecast,
+    ])
+}
+
+/// Requests for another speed, played ahead; only that counts.
+fn forecast_timed((mut controller, mut plant): (Controller, Plant), period: f64) -> Work<'static> {
+    let mut faster = false;
+    Work::new("forecast of a request", 1, move || {
+        faster = !faster;
+        let request = gait::Request { speed: Some(if faster { 1.05 } else { 0.95 }), ..gait::Request::default() };
+        let (source, lasting) = (Source::Program, Lasting::UntilChanged);
+        controller.ask(&Asked { request, intent: None, source, lasting });
+        let took_ns = controller.inquiry().map(|mut inquiry| {
+            let began_ns = now_ns();
+            inquiry.settle();
+            let took_ns = now_ns() - began_ns;
+            controller.give_back(inquiry);
+            took_ns
+        });
+        // The answer leaves with a tick.
+        let report = controller.tick(period, Some(&sensed(&plant.measure())));
+        plant.step(&setpoint(&report));
+        took_ns
+    })
+}
+
+/// Ticks of a controller that walks its plant; only the tick counts.
+fn walk_timed(
+    (mut controller, mut plant): (Controller, Plant),
+    period: f64,
+    begin: impl Fn() -> Result<(Controller, Plant), BenchError> + 'static,
+) -> Work<'static> {
+    let mut ticks = 0;
+    let run = move || {
+        if ticks == WALK
+            && let Ok(again) = begin()
+        {
+            (controller, plant) = again;
+            ticks = 0;
+        }
+        ticks += 1;
+        let measured = sensed(&plant.measure());
+        let began_ns = now_ns();
+        let report = controller.tick(period, Some(black_box(&measured)));
+        let took_ns = now_ns() - began_ns;
+        plant.step(&setpoint(&report));
+        Some(took_ns)
+    };
+    let mut work = Work::new(TICK, 1, run);
+    for _ in 0..WARM_UP {
+        (work.run)();
+    }
+    work
+}
+
+impl Work<'static> {
+    fn new(name: &str, batch: u32, run: impl FnMut() -> Option<u64> + 'static) -> Self {
+        Self { series: Series::new("compute", name, Over::Minimum), batch, run: Box::new(run) }
+    }
+
+    fn single(name: &str, mut run: impl FnMut() + 'static) -> Self {
+        Self::new(name, 1, move || {
+            run();
+            None
+        })
+    }
+
+    /// For what takes less than some microseconds.
+    fn batched(name: &str, mut run: impl FnMut() + 'static) -> Self {
+        Self::new(name, 32, move || {
+            run();
+            None
+        })
+    }
+
+    fn turn(&mut self, length: Duration) {
+        self.series.begin_round();
+        let end_ns = now_ns() + length.as_nanos() as u64;
+        let mut began_ns = now_ns();
+        while began_ns < end_ns {
+            let mut counts = None;
+            for _ in 0..self.batch {
+                counts = (self.run)();
+            }
+            let ended_ns = now_ns();
+            let took_ns = counts.unwrap_or(ended_ns - began_ns);
+            self.series.add(took_ns as f64 / f64::from(self.batch));
+            began_ns = now_ns();
+        }
+    }
+}
+
+/// Different in every joint, so that nothing is a special case.
+fn motion() -> Motion {
+    let spread = |size: f64| PerJoint::from_fn(|joint| size * (f64::from(joint.number()) * 0.7).sin());
+    Motion { angles: spread(0.5), rates: spread(2.0), accelerations: spread(10.0) }
+}
+
+fn setpoint(report: &TickReport) -> Setpoint {
+    let controller::Setpoint { angles, rates, feed_forward } = report.setpoint;
+    Setpoint { angles, rates, feed_forward }
+}
+
+fn sensed(measured: &plant::Measurement) -> Measurement {
+    Measurement {
+        tick: measured.sample,
+        angles: measured.angles,
+        rates: measured.rates,
+        feet: measured.feet,
+        orientation: measured.orientation.into_inner(),
+        angular_rate: measured.angular_rate,
+    }
+}

@@ -1,0 +1,59 @@
+//! cyclictest of the rt-tests, the usual measure of wake-up lateness, if it is installed.
+
+use std::process::Command;
+use std::time::Duration;
+
+use crate::{BenchError, Series};
+
+/// Later than this it only counts how often [µs].
+const LATEST_US: u64 = 20_000;
+
+/// Whether it is installed.
+pub fn is_installed() -> bool {
+    Command::new("cyclictest").arg("--help").output().is_ok()
+}
+
+/// Runs it on a core for so many periods and adds what it measured, to the microsecond below.
+///
+/// # Errors
+/// It failed, or told nothing.
+pub fn run(core: usize, priority: u8, period: Duration, periods: u64, series: &mut Series) -> Result<(), BenchError> {
+    let failed = |cause: String| BenchError::new("cyclictest", cause);
+    let numbers = [
+        ("-p", u64::from(priority)),
+        ("-a", core as u64),
+        ("-t", 1),
+        ("-i", period.as_micros() as u64),
+        ("-l", periods),
+        ("-h", LATEST_US),
+    ];
+    let arguments = numbers.iter().flat_map(|(option, number)| [(*option).to_owned(), number.to_string()]);
+    let output = Command::new("cyclictest").args(["-q", "-m"]).args(arguments).output();
+    let output = output.map_err(|error| failed(error.to_string()))?;
+    let mut counted = 0;
+    for (us, count) in histogram(&String::from_utf8_lossy(&output.stdout)) {
+        (0..count).for_each(|_| series.add(us as f64 * 1e3));
+        counted += count;
+    }
+    if counted == 0 { Err(failed(String::from_utf8_lossy(&output.stderr).trim().to_owned())) } else { Ok(()) }
+}
+
+/// The lateness [µs] and how often it was that late.
+fn histogram(told: &str) -> impl Iterator<Item = (u64, u64)> {
+    told.lines().filter_map(|line| {
+        let mut words = line.split_whitespace();
+        let pair = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
+        words.next().is_none().then_some(pair)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn its_histogram_is_read() {
+        let told = "# Histogram\n000003 000002\n000004 000001\n# Total: 000000003\n# Min Latencies: 00003\n";
+        assert_eq!(histogram(told).collect::<Vec<_>>(), [(3, 2), (4, 1)]);
+    }
+}

@@ -1,0 +1,317 @@
+//! The exchange: measurement there, setpoint back, between two processes that both wait awake, each on a core of its own.
+//!
+//! Our services are measured beside iceoryx2 by itself and a bare ring in shared memory. A round trip begins, at the loop's
+//! pace, when it is due, whether or not the one before has come back in time: what waits is counted (no coordinated
+//! omission). Flat out, the next begins when the last has ended.
+
+use std::hint::{black_box, spin_loop};
+use std::io::{BufRead, BufReader, Write};
+use std::path::PathBuf;
+use std::process::{Child, ChildStdin, ChildStdout, Stdio};
+use std::time::Duration;
+
+use runtime::{Scheduling, now_ns};
+use wire::{ControllerEnd, Instance, MeasurementMessage, Newest, PlantEnd, SetpointMessage};
+
+use crate::raw_iceoryx2::{Blackboards, PubSub, Services};
+use crate::raw_ring::{Plain, Ring};
+use crate::{BenchError, Findings, Machine, Over, Ratio, Series};
+
+/// How it is measured.
+#[derive(Clone, Copy, Debug)]
+pub struct ExchangeOptions {
+    /// How often all ways take turns.
+    pub rounds: u32,
+    /// Trips of a round, flat out.
+    pub trips: u64,
+    /// Trips of a round, at the loop's pace.
+    pub trips_at_pace: u64,
+    /// The loop's period.
+    pub period: Duration,
+    /// What the two processes ask of the system: who asks, and who answers. Each must have a core of its own.
+    pub scheduling: [Scheduling; 2],
+}
+
+/// The ways that a message can take.
+const WAYS: [(&str, &str); 4] = [
+    ("halfstep", "setpoint + measurement"),
+    ("blackboard", "iceoryx2 blackboard"),
+    ("pub-sub", "iceoryx2 publish-subscribe"),
+    ("ring", "ring in shared memory"),
+];
+
+/// Both ends mean the same robot: none.
+const MECHANISM: u64 = 0;
+/// The tick of the last measurement of a round.
+const LAST: u64 = u64::MAX / 2;
+/// Whoever waits awake before everybody else must let the others live in between.
+const BREATH: Duration = Duration::from_millis(100);
+/// Nothing takes so long; whoever does not answer has gone.
+const PATIENCE_NS: u64 = 5_000_000_000;
+
+/// One end of a way: sends `Out`, receives `In`.
+trait Way<Out, In> {
+    fn send(&mut self, message: &Out);
+    /// The tick of a message that has come, all of which has been read.
+    fn receive(&mut self) -> Option<u64>;
+}
+
+/// Measures all ways. `answering` starts this program such that it does nothing but [`answer`].
+///
+/// # Errors
+/// A way cannot be opened, or nobody answers.
+pub fn exchange(
+    options: &ExchangeOptions,
+    instance: &Instance,
+    answering: impl FnOnce() -> std::io::Result<std::process::Command>,
+) -> Result<Findings, BenchError> {
+    let _leftovers = instance.leftovers();
+    let mut ways = asking_ways(instance)?;
+    let mut other = Other::start(answering)?;
+    let _granted = options.scheduling[0].ask();
+
+    let of_group = |group: &str| WAYS.map(|(_, name)| Series::new(group, name, Over::Median));
+    let period_us = options.period.as_micros();
+    let mut flat_out = of_group("round trip, flat out");
+    let mut at_pace = of_group(&format!("round trip every {period_us} µs"));
+    for round in 0..options.rounds as usize {
+        // Not always the same one after the same.
+        for place in 0..WAYS.len() {
+            let way = (place + round) % WAYS.len();
+            let asking = ways[way].as_mut();
+            other.turn_to(WAYS[way].0)?;
+            warm_up(asking)?;
+            flat_out[way].begin_round();
+            at_pace[way].begin_round();
+            time_flat_out(asking, options.trips, &mut flat_out[way])?;
+            time_at_pace(asking, options, &mut at_pace[way])?;
+            asking.send(&MeasurementMessage { tick: LAST, ..MeasurementMessage::NOTHING });
+            std::thread::sleep(BREATH);
+        }
+    }
+
+    let mut ratios = Vec::new();
+    for [ours, blackboard, pub_sub, ring] in [flat_out.each_ref(), at_pace.each_ref()] {
+        let fastest = if blackboard.quantile(0.5) <= pub_sub.quantile(0.5) { blackboard } else { pub_sub };
+        ratios.push(Ratio { of: ours.group.clone(), ..Ratio::of(ours, fastest, 0.5, 1.15) });
+        ratios.push(Ratio { of: ours.group.clone(), ..Ratio::of(ours, ring, 0.5, 1.6) });
+    }
+    let notes = vec![format!(
+        "Each number is the median of {} rounds that take turns; {} B there, {} B back.",
+        options.rounds,
+        size_of::<MeasurementMessage>(),
+        size_of::<SetpointMessage>()
+    )];
+    let series = flat_out.into_iter().chain(at_pace).collect();
+    Ok(Findings { what: "latency", machine: Machine::of_this_process(), series, ratios, notes })
+}
+
+/// Answers on whatever way stdin names, until it ends: the other process of [`exchange`].
+///
+/// # Errors
+/// A way cannot be opened.
+pub fn answer(instance: &Instance, scheduling: &Scheduling) -> Result<(), BenchError> {
+    let mut ways = answering_ways(instance)?;
+    let _granted = scheduling.ask();
+    let broken = |error| BenchError::new("answering", error);
+    let mut setpoint = SetpointMessage { tick: 0, ..SetpointMessage::NOTHING };
+    let mut stdout = std::io::stdout().lock();
+    for name in std::io::stdin().lock().lines() {
+        let name = name.map_err(broken)?;
+        let Some(way) = WAYS.iter().position(|(way, _)| *way == name) else { continue };
+        writeln!(stdout, "ready").and_then(|()| stdout.flush()).map_err(broken)?;
+        loop {
+            match ways[way].receive() {
+                Some(LAST) => break,
+                Some(tick) => {
+                    setpoint.tick = tick;
+                    ways[way].send(&setpoint);
+                }
+                None => spin_loop(),
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The process that answers.
+struct Other {
+    child: Child,
+    ask: ChildStdin,
+    told: BufReader<ChildStdout>,
+}
+
+impl Other {
+    fn start(command: impl FnOnce() -> std::io::Result<std::process::Command>) -> Result<Self, BenchError> {
+        let failed = |error| BenchError::new("starting the process that answers", error);
+        let mut command = command().map_err(failed)?;
+        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().map_err(failed)?;
+        let pipes = child.stdin.take().zip(child.stdout.take());
+        let (ask, told) = pipes.ok_or_else(|| BenchError::new("starting the process that answers", "no pipe"))?;
+        Ok(Self { child, ask, told: BufReader::new(told) })
+    }
+
+    fn turn_to(&mut self, way: &str) -> Result<(), BenchError> {
+        let mut line = String::new();
+        let told = writeln!(self.ask, "{way}").and_then(|()| self.told.read_line(&mut line));
+        match told {
+            Ok(length) if length > 0 => Ok(()),
+            Ok(_) => Err(BenchError::new("the process that answers", "it has ended")),
+            Err(error) => Err(BenchError::new("the process that answers", error)),
+        }
+    }
+}
+
+impl Drop for Other {
+    fn drop(&mut self) {
+        // It may wait for a measurement that does not come any more.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+fn trip(way: &mut dyn Way<MeasurementMessage, SetpointMessage>, tick: u64) -> Result<(), BenchError> {
+    way.send(&MeasurementMessage { tick, sample: tick, ..MeasurementMessage::NOTHING });
+    let mut looks = 0_u64;
+    let mut began = None;
+    loop {
+        if way.receive() == Some(tick) {
+            return Ok(());
+        }
+        looks += 1;
+        if looks.is_multiple_of(1 << 20) && now_ns() - *began.get_or_insert_with(now_ns) > PATIENCE_NS {
+            return Err(BenchError::new("the process that answers", "it is silent"));
+        }
+        spin_loop();
+    }
+}
+
+fn warm_up(way: &mut dyn Way<MeasurementMessage, SetpointMessage>) -> Result<(), BenchError> {
+    (1..1000).try_for_each(|tick| trip(way, tick))
+}
+
+fn time_flat_out(
+    way: &mut dyn Way<MeasurementMessage, SetpointMessage>,
+    trips: u64,
+    series: &mut Series,
+) -> Result<(), BenchError> {
+    let mut began_ns = now_ns();
+    for tick in 1000..1000 + trips {
+        trip(way, tick)?;
+        let ended_ns = now_ns();
+        series.add((ended_ns - began_ns) as f64);
+        // Adding is no part of the next trip.
+        began_ns = now_ns();
+    }
+    Ok(())
+}
+
+fn time_at_pace(
+    way: &mut dyn Way<MeasurementMessage, SetpointMessage>,
+    options: &ExchangeOptions,
+    series: &mut Series,
+) -> Result<(), BenchError> {
+    let period_ns = options.period.as_nanos() as u64;
+    let mut due_ns = now_ns() + period_ns;
+    for tick in 0..options.trips_at_pace {
+        while now_ns() < due_ns {
+            spin_loop();
+        }
+        trip(way, LAST + 1 + tick)?;
+        series.add((now_ns() - due_ns) as f64);
+        due_ns += period_ns;
+    }
+    Ok(())
+}
+
+type Ways<Out, In> = [Box<dyn Way<Out, In>>; 4];
+
+/// In the order of [`WAYS`], for who asks and begins.
+fn asking_ways(instance: &Instance) -> Result<Ways<MeasurementMessage, SetpointMessage>, BenchError> {
+    let services = Services::new(instance.name(), true)?;
+    let ring = |error| BenchError::new("a ring", error);
+    let out = Ring::make(&ring_file(instance, "measurement")).map_err(ring)?;
+    let into = Ring::make(&ring_file(instance, "setpoint")).map_err(ring)?;
+    let end = PlantEnd::connect(instance, MECHANISM).map_err(|error| BenchError::new("our services", error))?;
+    Ok([
+        Box::new(end),
+        Box::new(services.blackboards("board/measurement", "board/setpoint")?),
+        Box::new(services.pub_sub("published/measurement", "published/setpoint")?),
+        Box::new(Rings { into, out }),
+    ])
+}
+
+/// In the order of [`WAYS`], for who answers.
+fn answering_ways(instance: &Instance) -> Result<Ways<SetpointMessage, MeasurementMessage>, BenchError> {
+    let services = Services::new(instance.name(), false)?;
+    let ring = |error| BenchError::new("a ring", error);
+    let out = Ring::open(&ring_file(instance, "setpoint")).map_err(ring)?;
+    let into = Ring::open(&ring_file(instance, "measurement")).map_err(ring)?;
+    let end = ControllerEnd::connect(instance, MECHANISM).map_err(|error| BenchError::new("our services", error))?;
+    Ok([
+        Box::new(end),
+        Box::new(services.blackboards("board/setpoint", "board/measurement")?),
+        Box::new(services.pub_sub("published/setpoint", "published/measurement")?),
+        Box::new(Rings { into, out }),
+    ])
+}
+
+fn ring_file(instance: &Instance, name: &str) -> PathBuf {
+    PathBuf::from(format!("/dev/shm/halfstep.{}.ring-{name}", instance.name()))
+}
+
+/// A ring each way.
+struct Rings<Out: Plain, In: Plain> {
+    out: Ring<Out>,
+    into: Ring<In>,
+}
+
+impl Way<MeasurementMessage, SetpointMessage> for PlantEnd {
+    fn send(&mut self, message: &MeasurementMessage) {
+        self.measurements.write(message);
+    }
+
+    fn receive(&mut self) -> Option<u64> {
+        self.setpoints.news().map(|message| black_box(message).tick)
+    }
+}
+
+impl Way<SetpointMessage, MeasurementMessage> for ControllerEnd {
+    fn send(&mut self, message: &SetpointMessage) {
+        self.setpoints.write(message);
+    }
+
+    fn receive(&mut self) -> Option<u64> {
+        self.measurements.news().map(|message| black_box(message).tick)
+    }
+}
+
+impl<Out: Newest, In: Newest> Way<Out, In> for Blackboards<Out, In> {
+    fn send(&mut self, message: &Out) {
+        Blackboards::send(self, message);
+    }
+
+    fn receive(&mut self) -> Option<u64> {
+        Blackboards::receive(self).map(|message| black_box(message).tick())
+    }
+}
+
+impl<Out: Newest, In: Newest> Way<Out, In> for PubSub<Out, In> {
+    fn send(&mut self, message: &Out) {
+        PubSub::send(self, message);
+    }
+
+    fn receive(&mut self) -> Option<u64> {
+        PubSub::receive(self).map(|message| black_box(&message).tick())
+    }
+}
+
+impl<Out: Plain, In: Plain + Newest> Way<Out, In> for Rings<Out, In> {
+    fn send(&mut self, message: &Out) {
+        self.out.write(message);
+    }
+
+    fn receive(&mut self) -> Option<u64> {
+        self.into.read().map(|message| black_box(&message).tick())
+    }
+}

@@ -1,0 +1,130 @@
+//! iceoryx2 by itself, without what `wire` adds: the same payload over a blackboard and by publish–subscribe.
+
+use std::fmt::Debug;
+
+use iceoryx2::port::publisher::Publisher;
+use iceoryx2::port::reader::{BlackboardValue, EntryHandle, Reader};
+use iceoryx2::port::subscriber::Subscriber;
+use iceoryx2::port::writer::{EntryHandleMut, Writer};
+use iceoryx2::prelude::{
+    Config, FileName, Node, NodeBuilder, Path, SemanticString, ServiceName, SignalHandlingMode, ZeroCopySend, ipc,
+};
+use wire::{InstanceName, Newest};
+
+use crate::BenchError;
+
+type Ipc = ipc::Service;
+
+/// What makes and opens services where the instance's other files are, so that they go with those.
+pub(crate) struct Services {
+    node: Node<Ipc>,
+    /// Whether services are made, or opened.
+    makes: bool,
+}
+
+/// One end of a message each way over two blackboards with one entry each.
+pub(crate) struct Blackboards<Out: Newest, In: Newest> {
+    out: EntryHandleMut<Ipc, u64, Out>,
+    into: EntryHandle<Ipc, u64, In>,
+    last: BlackboardValue<In>,
+    _ports: (Writer<Ipc, u64>, Reader<Ipc, u64>),
+}
+
+/// One end of a message each way by publish–subscribe, newest wins.
+pub(crate) struct PubSub<Out: Newest, In: Newest> {
+    out: Publisher<Ipc, Out, ()>,
+    into: Subscriber<Ipc, In, ()>,
+}
+
+const KEY: u64 = 0;
+
+fn failed(cause: impl Debug) -> BenchError {
+    BenchError { what: "iceoryx2 by itself", cause: format!("{cause:?}") }
+}
+
+impl Services {
+    pub fn new(instance: &InstanceName, makes: bool) -> Result<Self, BenchError> {
+        let root = std::env::temp_dir().join(format!("halfstep-{}", rustix::process::getuid().as_raw()));
+        let root = root.join(instance.as_str());
+        let mut config = Config::default();
+        config.global.prefix = FileName::new(format!("halfstep.{instance}.").as_bytes()).map_err(failed)?;
+        config.global.set_root_path(&Path::new(root.as_os_str().as_encoded_bytes()).map_err(failed)?);
+        let node = NodeBuilder::new().config(&config).signal_handling_mode(SignalHandlingMode::Disabled);
+        Ok(Self { node: node.create().map_err(failed)?, makes })
+    }
+
+    /// `out` and `into` name the services.
+    pub fn blackboards<Out: Newest, In: Newest>(
+        &self,
+        out: &str,
+        into: &str,
+    ) -> Result<Blackboards<Out, In>, BenchError> {
+        let writer = self.blackboard::<Out>(out)?.writer_builder().create().map_err(failed)?;
+        let reader = self.blackboard::<In>(into)?.reader_builder().create().map_err(failed)?;
+        let (out, into) = (writer.entry(&KEY).map_err(failed)?, reader.entry(&KEY).map_err(failed)?);
+        Ok(Blackboards { out, last: into.get(), into, _ports: (writer, reader) })
+    }
+
+    /// `out` and `into` name the services.
+    pub fn pub_sub<Out: Newest, In: Newest>(&self, out: &str, into: &str) -> Result<PubSub<Out, In>, BenchError> {
+        let out = self.publishing::<Out>(out)?.publisher_builder().create().map_err(failed)?;
+        let into = self.publishing::<In>(into)?.subscriber_builder().create().map_err(failed)?;
+        Ok(PubSub { out, into })
+    }
+
+    fn blackboard<M: Newest>(
+        &self,
+        name: &str,
+    ) -> Result<iceoryx2::service::port_factory::blackboard::PortFactory<Ipc, u64>, BenchError> {
+        let builder = self.node.service_builder(&name_of(name)?);
+        if self.makes {
+            builder.blackboard_creator::<u64>().add(KEY, M::NOTHING).create().map_err(failed)
+        } else {
+            builder.blackboard_opener::<u64>().open().map_err(failed)
+        }
+    }
+
+    fn publishing<M: Newest>(
+        &self,
+        name: &str,
+    ) -> Result<iceoryx2::service::port_factory::publish_subscribe::PortFactory<Ipc, M, ()>, BenchError> {
+        let builder = self.node.service_builder(&name_of(name)?).publish_subscribe::<M>();
+        builder
+            .enable_safe_overflow(true)
+            .subscriber_max_buffer_size(1)
+            .max_publishers(1)
+            .open_or_create()
+            .map_err(failed)
+    }
+}
+
+fn name_of(name: &str) -> Result<ServiceName, BenchError> {
+    ServiceName::new(name).map_err(failed)
+}
+
+impl<Out: Newest, In: Newest> Blackboards<Out, In> {
+    pub fn send(&mut self, message: &Out) {
+        self.out.update_with_copy(*message);
+    }
+
+    pub fn receive(&mut self) -> Option<&In> {
+        if self.into.is_up_to_date(&self.last) {
+            return None;
+        }
+        self.last = self.into.get();
+        Some(&self.last)
+    }
+}
+
+impl<Out: Newest + ZeroCopySend, In: Newest + ZeroCopySend> PubSub<Out, In> {
+    pub fn send(&mut self, message: &Out) {
+        // In one run nothing of this can fail after it succeeded once; a message that is lost is noticed by its answer.
+        if let Ok(sample) = self.out.loan_uninit() {
+            let _ = sample.write_payload(*message).send();
+        }
+    }
+
+    pub fn receive(&mut self) -> Option<In> {
+        self.into.receive().ok().flatten().map(|sample| *sample)
+    }
+}

@@ -1,0 +1,125 @@
+//! A ring in shared memory, as bare as can be: the yardstick. The one place with `unsafe` in this crate.
+//!
+//! One side writes, the other reads; each slot has the number of its message, which is written last.
+
+use std::fs::{File, OpenOptions};
+use std::io;
+use std::marker::PhantomData;
+use std::path::{Path, PathBuf};
+use std::ptr;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use rustix::mm::{MapFlags, ProtFlags, mmap, munmap};
+
+/// A message type of which any bytes are a value.
+pub(crate) trait Plain: Copy {}
+
+impl Plain for wire::MeasurementMessage {}
+impl Plain for wire::SetpointMessage {}
+
+/// One end of a ring of messages `M`.
+pub(crate) struct Ring<M: Plain> {
+    slots: *mut Slot<M>,
+    next: u64,
+    /// Whoever made the file removes it.
+    made: Option<PathBuf>,
+    message: PhantomData<M>,
+}
+
+#[repr(C, align(64))]
+struct Slot<M> {
+    number: AtomicU64,
+    message: M,
+}
+
+/// As few as can be: one message is under way at a time, and what stays in a cache is faster.
+const SLOTS: u64 = 2;
+
+impl<M: Plain> Ring<M> {
+    /// A new ring, all zeros, in a file that must not be there yet; removed when dropped.
+    pub fn make(path: &Path) -> io::Result<Self> {
+        let file = OpenOptions::new().read(true).write(true).create_new(true).open(path)?;
+        file.set_len(Self::length() as u64)?;
+        let mut ring = Self::map(&file)?;
+        ring.made = Some(path.to_owned());
+        Ok(ring)
+    }
+
+    /// The other end of a ring that was made.
+    pub fn open(path: &Path) -> io::Result<Self> {
+        Self::map(&OpenOptions::new().read(true).write(true).open(path)?)
+    }
+
+    fn map(file: &File) -> io::Result<Self> {
+        if file.metadata()?.len() < Self::length() as u64 {
+            return Err(io::ErrorKind::UnexpectedEof.into());
+        }
+        let protection = ProtFlags::READ | ProtFlags::WRITE;
+        // SAFETY: a new mapping, of a file that is long enough, at an address that the system chooses.
+        let start = unsafe { mmap(ptr::null_mut(), Self::length(), protection, MapFlags::SHARED, file, 0)? };
+        Ok(Self { slots: start.cast(), next: 1, made: None, message: PhantomData })
+    }
+
+    fn length() -> usize {
+        SLOTS as usize * size_of::<Slot<M>>()
+    }
+
+    /// Writes the next message.
+    pub fn write(&mut self, message: &M) {
+        let slot = self.slot();
+        // SAFETY: the slot is within the mapping, and the other end reads it only once its number is there.
+        unsafe {
+            (&raw mut (*slot).message).write(*message);
+            (*slot).number.store(self.next, Ordering::Release);
+        }
+        self.next += 1;
+    }
+
+    /// The next message, if it is there.
+    pub fn read(&mut self) -> Option<M> {
+        let slot = self.slot();
+        // SAFETY: as above; the other end comes back to this slot only after an answer to it. Any bytes are a message.
+        let message = unsafe {
+            ((*slot).number.load(Ordering::Acquire) == self.next).then(|| (&raw const (*slot).message).read())
+        }?;
+        self.next += 1;
+        Some(message)
+    }
+
+    fn slot(&self) -> *mut Slot<M> {
+        // SAFETY: the remainder is within the mapping.
+        unsafe { self.slots.add((self.next % SLOTS) as usize) }
+    }
+}
+
+impl<M: Plain> Drop for Ring<M> {
+    fn drop(&mut self) {
+        // SAFETY: mapped in `map` with this length, and never used again.
+        let _ = unsafe { munmap(self.slots.cast(), Self::length()) };
+        if let Some(path) = &self.made {
+            let _ = std::fs::remove_file(path);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use wire::{Newest, SetpointMessage};
+
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_read_once_and_in_order() {
+        let path = std::env::temp_dir().join(format!("halfstep-ring-{}", std::process::id()));
+        let mut writer = Ring::make(&path).unwrap();
+        let mut reader = Ring::<SetpointMessage>::open(&path).unwrap();
+        assert!(reader.read().is_none());
+        for tick in 0..3 * SLOTS {
+            writer.write(&SetpointMessage { tick, ..SetpointMessage::NOTHING });
+            assert_eq!(reader.read().map(|message| message.tick), Some(tick));
+            assert!(reader.read().is_none());
+        }
+        drop(writer);
+        assert!(!path.exists());
+    }
+}

@@ -1,0 +1,296 @@
+//! Reading a recording, from its beginning to where it ends or was cut off.
+
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::{BufReader, Read};
+use std::path::{Path, PathBuf};
+
+use mcap::McapError;
+use mcap::records::Record;
+use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
+
+use crate::schema::{self, HEAD, MESSAGE_ENCODING, SCHEMA_ENCODING};
+use crate::{CONTROLLER_FILE, Channel, Event, Note, Origin, PLANT_FILE, RUN_FILE, RecordError};
+
+/// No record of ours is as long; a damaged file may claim it [bytes].
+const RECORD_MAX: usize = 1 << 30;
+
+/// A recording that is being read. Other recordings' channels in it are passed over.
+pub struct Recording {
+    path: PathBuf,
+    file: BufReader<File>,
+    reader: LinearReader,
+    /// Of MCAP's schemas: encoding and text.
+    schemas: HashMap<u16, (String, String)>,
+    /// By MCAP's numbers.
+    channels: HashMap<u16, Channel>,
+    is_whole: bool,
+    damage: Option<String>,
+    /// Until when it was read [ns].
+    time_ns: u64,
+}
+
+/// What stands in a recording.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Item {
+    /// An event.
+    Event(Box<Stamped>),
+    /// Words.
+    Note(Note),
+    /// Name and text of a file.
+    File(String, String),
+}
+
+/// An event with its time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stamped {
+    /// Of the run [ns].
+    pub time_ns: u64,
+    /// See the crate's table.
+    pub number: u32,
+    /// What happened.
+    pub event: Event,
+}
+
+impl Stamped {
+    /// Of the run [s].
+    pub fn time(&self) -> f64 {
+        self.time_ns as f64 / 1e9
+    }
+}
+
+/// The files that hold a run: the file itself, or in a folder [`RUN_FILE`], or if that is not there what the processes left
+/// behind.
+///
+/// # Errors
+/// There is nothing of the kind.
+pub fn files_of(run: &Path) -> Result<Vec<PathBuf>, RecordError> {
+    if !run.is_dir() {
+        return Ok(vec![run.to_owned()]);
+    }
+    let whole = run.join(RUN_FILE);
+    let parts = [CONTROLLER_FILE, PLANT_FILE].map(|name| run.join(name));
+    let there: Vec<_> = parts.into_iter().filter(|part| part.exists()).collect();
+    match (whole.exists(), there.is_empty()) {
+        (true, _) => Ok(vec![whole]),
+        (false, false) => Ok(there),
+        (false, true) => {
+            let names = format!("{RUN_FILE}, or {CONTROLLER_FILE} and {PLANT_FILE}");
+            Err(RecordError::Nothing { folder: run.to_owned(), names })
+        }
+    }
+}
+
+/// What a run began with: a recording, or the folder that holds it. Of files with the same name the first is taken.
+///
+/// # Errors
+/// See [`files_of`] and [`Recording::next_item`].
+pub fn origin_of(run: &Path) -> Result<Origin, RecordError> {
+    let mut origin = Origin::default();
+    for file in files_of(run)? {
+        let mut recording = Recording::open(&file)?;
+        // It stands before all events.
+        while let Some(item) = recording.next_item()? {
+            match item {
+                Item::Note(note) => origin.notes.push(note),
+                Item::File(name, text) => origin.attach(name, text),
+                Item::Event(_) => break,
+            }
+        }
+    }
+    Ok(origin)
+}
+
+impl Recording {
+    /// Opens a file.
+    ///
+    /// # Errors
+    /// It cannot be read. What it holds shows as it is read.
+    pub fn open(path: &Path) -> Result<Self, RecordError> {
+        let file = File::open(path).map_err(RecordError::io(path))?;
+        let options = LinearReaderOptions::default()
+            .with_skip_end_magic(true)
+            // A chunk that was cut off gives nothing, and one that was damaged nothing wrong.
+            .with_prevalidate_chunk_crcs(true)
+            .with_record_length_limit(RECORD_MAX);
+        Ok(Self {
+            path: path.to_owned(),
+            file: BufReader::new(file),
+            reader: LinearReader::new_with_options(options),
+            schemas: HashMap::new(),
+            channels: HashMap::new(),
+            is_whole: false,
+            damage: None,
+            time_ns: 0,
+        })
+    }
+
+    /// What comes next; `None` at the end, or where the file was cut off or damaged: see [`cut`](Self::cut).
+    ///
+    /// # Errors
+    /// The system says no, or it is no recording of this version.
+    pub fn next_item(&mut self) -> Result<Option<Item>, RecordError> {
+        while !self.is_whole && self.damage.is_none() {
+            match self.reader.next_event() {
+                None => self.damage = Some("it ends without an index".to_owned()),
+                Some(Err(McapError::BadMagic)) => return Err(RecordError::NotMcap { file: self.path.clone() }),
+                Some(Err(McapError::UnexpectedEof)) => self.damage = Some("it ends amid a chunk".to_owned()),
+                Some(Err(error)) => self.damage = Some(error.to_string()),
+                Some(Ok(LinearReadEvent::ReadRequest(wanted))) => {
+                    let read = self.file.read(self.reader.insert(wanted)).map_err(RecordError::io(&self.path))?;
+                    self.reader.notify_read(read);
+                }
+                Some(Ok(LinearReadEvent::Record { data, opcode })) => match mcap::parse_record(opcode, data) {
+                    Ok(record) => {
+                        let record = record.into_owned();
+                        if let Some(item) = self.item(record)? {
+                            return Ok(Some(item));
+                        }
+                    }
+                    Err(error) => self.damage = Some(error.to_string()),
+                },
+            }
+        }
+        Ok(None)
+    }
+
+    /// The next event; `None` as [`next_item`](Self::next_item).
+    ///
+    /// # Errors
+    /// See [`next_item`](Self::next_item).
+    pub fn next_event(&mut self) -> Result<Option<Stamped>, RecordError> {
+        loop {
+            match self.next_item()? {
+                Some(Item::Event(event)) => return Ok(Some(*event)),
+                Some(_) => {}
+                None => return Ok(None),
+            }
+        }
+    }
+
+    /// Once it has been read: why its end is missing, if it is, and from when on.
+    pub fn cut(&self) -> Option<String> {
+        let seconds = self.time_ns as f64 * 1e-9;
+        let damage = self.damage.as_ref()?;
+        Some(format!("{}: whole up to {seconds:.3} s: {damage}", self.path.display()))
+    }
+
+    fn item(&mut self, record: Record) -> Result<Option<Item>, RecordError> {
+        match record {
+            Record::Schema { header, data } => {
+                self.schemas.insert(header.id, (header.encoding, String::from_utf8_lossy(&data).into_owned()));
+            }
+            Record::Channel(channel) => {
+                let ours = Channel::ALL.iter().find(|ours| ours.topic() == channel.topic);
+                if let Some(&ours) = ours {
+                    self.check(ours, channel.schema_id, &channel.message_encoding)?;
+                    self.channels.insert(channel.id, ours);
+                }
+            }
+            Record::Message { header, data } => {
+                let Some(channel) = self.channels.get(&header.channel_id) else { return Ok(None) };
+                let event = data.strip_prefix(&HEAD).and_then(|bytes| channel.event(bytes));
+                let event = event.ok_or_else(|| RecordError::WrongSize {
+                    file: self.path.clone(),
+                    topic: channel.topic().to_owned(),
+                    number: header.sequence,
+                    size: data.len(),
+                })?;
+                self.time_ns = header.log_time;
+                return Ok(Some(Item::Event(Box::new(Stamped {
+                    time_ns: header.log_time,
+                    number: header.sequence,
+                    event,
+                }))));
+            }
+            Record::Metadata(note) => return Ok(Some(Item::Note(Note { name: note.name, words: note.metadata }))),
+            Record::Attachment { header, data, .. } => {
+                return Ok(Some(Item::File(header.name, String::from_utf8_lossy(&data).into_owned())));
+            }
+            Record::Footer(_) => self.is_whole = true,
+            _ => {}
+        }
+        Ok(None)
+    }
+
+    /// Whether a channel's messages are laid out as they are here.
+    fn check(&self, channel: Channel, schema: u16, encoding: &str) -> Result<(), RecordError> {
+        let expected = schema::text(&channel.layout());
+        let none = (String::new(), String::new());
+        let (schema_encoding, text) = self.schemas.get(&schema).unwrap_or(&none);
+        if *text == expected && schema_encoding == SCHEMA_ENCODING && encoding == MESSAGE_ENCODING {
+            return Ok(());
+        }
+        let line = |text: &str| text.lines().next().unwrap_or("nothing known").trim_start_matches("# ").to_owned();
+        Err(RecordError::OtherVersion {
+            file: self.path.clone(),
+            topic: channel.topic().to_owned(),
+            found: line(text),
+            expected: line(&expected),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use wire::{LaidOut, SetpointMessage};
+
+    use super::*;
+    use crate::RecordingWriter;
+
+    /// A file with one channel that somebody else wrote, and what reading it says.
+    fn foreign(topic: &str, encoding: &str, schema: &str) -> Result<Option<Stamped>, String> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("foreign.mcap");
+        let mut mcap = mcap::Writer::new(File::create(&path).unwrap()).unwrap();
+        let id = mcap.add_schema("halfstep/msg/Setpoint", SCHEMA_ENCODING, schema.as_bytes()).unwrap();
+        let channel_id = mcap.add_channel(id, topic, encoding, &BTreeMap::new()).unwrap();
+        let header = mcap::records::MessageHeader { channel_id, sequence: 7, log_time: 1, publish_time: 1 };
+        mcap.write_to_known_channel(&header, &[0, 1, 0, 0, 5]).unwrap();
+        mcap.finish().unwrap();
+        let mut recording = Recording::open(&path).unwrap();
+        let read = recording.next_event();
+        assert_eq!(recording.cut(), None);
+        read.map_err(|error| error.to_string().replace(&*folder.path().to_string_lossy(), "folder"))
+    }
+
+    #[test]
+    fn what_is_laid_out_otherwise_is_refused() {
+        let own = schema::text(&SetpointMessage::layout());
+        let older = own.replace("v1", "v0").replace("float64[20] rates\n", "");
+        let expected = "folder/foreign.mcap: /setpoints was written by another version: its messages are \
+                        `halfstep.Setpoint.v0`, those of this version `halfstep.Setpoint.v1`";
+        assert_eq!(foreign("/setpoints", MESSAGE_ENCODING, &older), Err(expected.to_owned()));
+        assert!(foreign("/setpoints", "json", &own).is_err());
+        let short = foreign("/setpoints", MESSAGE_ENCODING, &own).unwrap_err();
+        assert_eq!(short, "folder/foreign.mcap: message 7 of /setpoints has 5 bytes, which its schema does not allow");
+    }
+
+    #[test]
+    fn what_is_not_ours_is_passed_over() {
+        assert_eq!(foreign("/camera", "json", "{}"), Ok(None));
+    }
+
+    #[test]
+    fn a_folder_holds_the_whole_or_its_parts() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str| folder.path().join(name);
+        assert!(files_of(folder.path()).unwrap_err().to_string().contains("holds no recording; it must hold run.mcap"));
+        for name in [PLANT_FILE, CONTROLLER_FILE] {
+            let files = vec![(name.to_owned(), "text".to_owned()), ("both".to_owned(), name.to_owned())];
+            let origin = Origin { notes: vec![Note::new(name, [("key", "value".to_owned())])], files };
+            RecordingWriter::create(&file(name), &origin).unwrap().finish().unwrap();
+        }
+        let parts = files_of(folder.path()).unwrap();
+        assert_eq!(parts, [file(CONTROLLER_FILE), file(PLANT_FILE)]);
+        let origin = origin_of(folder.path()).unwrap();
+        assert_eq!((origin.files.len(), origin.file("both")), (3, Some(CONTROLLER_FILE)));
+
+        crate::merge(&parts, &file(RUN_FILE)).unwrap();
+        assert_eq!(files_of(folder.path()).unwrap(), [file(RUN_FILE)]);
+        assert_eq!(origin_of(folder.path()).unwrap(), origin);
+        assert_eq!(origin.word(PLANT_FILE, "key"), Some("value"));
+    }
+}

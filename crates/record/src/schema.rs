@@ -1,0 +1,63 @@
+//! Schemas: a message's layout as the text of a ROS 2 `.msg` file.
+
+use std::fmt::Write;
+
+use wire::{Layout, Number};
+
+/// How MCAP calls what [`text`] writes.
+pub const SCHEMA_ENCODING: &str = "ros2msg";
+/// How MCAP calls what [`HEAD`] and a message's bytes make.
+pub const MESSAGE_ENCODING: &str = "cdr";
+/// Before each message: CDR, little-endian. Fields are aligned from here on, as they are in shared memory.
+pub const HEAD: [u8; 4] = [0, 1, 0, 0];
+
+/// What the message is called in ROS 2: `halfstep/msg/Setpoint`.
+pub fn name(layout: &Layout) -> String {
+    format!("halfstep/msg/{}", layout.message.trim_end_matches("Message"))
+}
+
+/// The schema: a line per field, after one that names the layout's version.
+pub fn text(layout: &Layout) -> String {
+    let mut text = format!("# {}\n", layout.type_name);
+    for field in &layout.fields {
+        let number = match field.number {
+            Number::U32 => "uint32",
+            Number::U64 => "uint64",
+            Number::F64 => "float64",
+        };
+        let many = field.count.map_or(String::new(), |count| format!("[{count}]"));
+        // A String takes everything.
+        let _ = writeln!(text, "{number}{many} {}", field.name);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Channel;
+
+    #[test]
+    fn a_layout_becomes_a_message_definition() {
+        let layout = Channel::Setpoint.layout();
+        assert_eq!(name(&layout), "halfstep/msg/Setpoint");
+        let expected = "# halfstep.Setpoint.v1\nuint64 tick\nuint64 time_ns\nfloat64[20] angles\nfloat64[20] rates\n\
+                        float64[20] feed_forward\n";
+        assert_eq!(text(&layout), expected);
+    }
+
+    /// CDR aligns every number to its size, counted from the end of the head.
+    #[test]
+    fn shared_memory_is_aligned_as_cdr_is() {
+        for channel in Channel::ALL {
+            let layout = channel.layout();
+            let mut end = 0;
+            for field in &layout.fields {
+                let size = if field.number == Number::U32 { 4 } else { 8 };
+                assert_eq!((field.offset, field.offset % size), (end, 0), "{} {}", layout.message, field.name);
+                end = field.offset + size * field.count.unwrap_or(1);
+            }
+            assert_eq!(end, layout.size, "{}", layout.message);
+        }
+    }
+}

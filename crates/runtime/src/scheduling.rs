@@ -1,0 +1,166 @@
+//! Scheduling: what a loop asks of the system so that it wakes up in time.
+//!
+//! Without permission the loop runs on as an ordinary thread; every refusal says how to get what was refused.
+
+use std::fmt;
+use std::fs::{File, OpenOptions};
+use std::hint::black_box;
+use std::io::{self, Write};
+
+use rustix::mm::{MlockAllFlags, mlockall};
+use rustix::thread::{CpuSet, sched_setaffinity};
+
+use crate::system::{keep_freed_memory, schedule_fifo};
+
+/// What is asked for the calling thread and, of memory and sleep, for its process.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Scheduling {
+    /// Priority under `SCHED_FIFO`, 1 to 99; `None` is an ordinary thread.
+    pub priority: Option<u8>,
+    /// The only core to run on; `None` is any.
+    pub core: Option<usize>,
+    /// Whether all memory is touched beforehand and stays in place.
+    pub lock_memory: bool,
+    /// Whether idle cores are kept out of the sleep from which waking takes long.
+    pub keep_awake: bool,
+}
+
+/// What was granted. To be kept as long as it is needed.
+#[derive(Debug)]
+pub struct Granted {
+    /// What was not, each with the way to get it.
+    pub refused: Vec<Refusal>,
+    /// Cores may sleep deeply again once it is closed.
+    _awake: Option<File>,
+}
+
+/// What was asked for and not granted.
+#[derive(Debug)]
+pub enum Refusal {
+    /// `SCHED_FIFO` with this priority.
+    Priority(u8, io::Error),
+    /// To run on this core only.
+    Core(usize, io::Error),
+    /// Memory that stays in place.
+    Memory(io::Error),
+    /// Cores that sleep lightly.
+    Awake(io::Error),
+}
+
+/// Touched beforehand [bytes]: many times what a loop needs.
+const STACK: usize = 256 << 10;
+const HEAP: usize = 8 << 20;
+const PAGE: usize = 4096;
+/// The longest time in which an idle core must be back, as long as the file stays open, is written here [µs].
+const LATENCY_FILE: &str = "/dev/cpu_dma_latency";
+
+impl Scheduling {
+    /// What a thread asks for that works for a loop which asks for this: `steps` less of priority, an ordinary thread where
+    /// there is no room for that. The loop has seen to memory and sleep, and keeps its core to itself.
+    pub fn below(&self, steps: u8) -> Self {
+        let priority = self.priority.and_then(|priority| priority.checked_sub(steps)).filter(|priority| *priority > 0);
+        Self { priority, ..Self::default() }
+    }
+
+    /// Asks for all of it, for the calling thread. Other threads are best started before: they would inherit the core.
+    pub fn ask(&self) -> Granted {
+        let mut refused = Vec::new();
+        if self.lock_memory {
+            keep_freed_memory();
+            touch_heap();
+            touch_stack();
+            // What comes later is not locked: a loop allocates nothing, and other threads may have less than they map.
+            refused.extend(mlockall(MlockAllFlags::CURRENT).err().map(|error| Refusal::Memory(error.into())));
+        }
+        let awake = self
+            .keep_awake
+            .then(keep_awake)
+            .and_then(|awake| awake.map_err(|error| refused.push(Refusal::Awake(error))).ok());
+        if let Some(core) = self.core {
+            refused.extend(pin(core).err().map(|error| Refusal::Core(core, error)));
+        }
+        if let Some(priority) = self.priority {
+            refused.extend(schedule_fifo(priority).err().map(|error| Refusal::Priority(priority, error)));
+        }
+        Granted { refused, _awake: awake }
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Refusal::Priority(priority, error) => write!(
+                out,
+                "no SCHED_FIFO priority {priority} ({error}): give the binary the capability (sudo setcap \
+                 cap_sys_nice,cap_ipc_lock=ep FILE) or raise the user's rtprio in /etc/security/limits.conf"
+            ),
+            Refusal::Core(core, error) => {
+                write!(out, "not pinned to core {core} ({error}): choose a core of this machine")
+            }
+            Refusal::Memory(error) => write!(
+                out,
+                "memory is not locked ({error}): give the binary the capability cap_ipc_lock, or raise the user's memlock \
+                 in /etc/security/limits.conf"
+            ),
+            Refusal::Awake(error) => {
+                write!(out, "cores may sleep deeply ({LATENCY_FILE}: {error}): let the user write to that file")
+            }
+        }
+    }
+}
+
+fn pin(core: usize) -> io::Result<()> {
+    if core >= CpuSet::MAX_CPU {
+        return Err(io::ErrorKind::InvalidInput.into());
+    }
+    let mut cores = CpuSet::new();
+    cores.set(core);
+    Ok(sched_setaffinity(None, &cores)?)
+}
+
+fn keep_awake() -> io::Result<File> {
+    let mut file = OpenOptions::new().write(true).open(LATENCY_FILE)?;
+    file.write_all(&0_i32.to_ne_bytes())?;
+    Ok(file)
+}
+
+fn touch_heap() {
+    let mut heap = vec![0_u8; HEAP];
+    for byte in heap.iter_mut().step_by(PAGE) {
+        *byte = 1;
+    }
+    black_box(&heap);
+}
+
+#[inline(never)]
+fn touch_stack() {
+    black_box(&mut [1_u8; STACK]);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_refused_is_told_with_the_way_to_get_it() {
+        let scheduling = Scheduling { core: Some(usize::MAX), ..Scheduling::default() };
+        let refused = scheduling.ask().refused;
+        assert_eq!(refused.len(), 1, "{refused:?}");
+        assert!(refused[0].to_string().contains("choose a core of this machine"));
+        let denied = Refusal::Priority(80, io::ErrorKind::PermissionDenied.into()).to_string();
+        assert!(denied.contains("cap_sys_nice") && denied.contains("rtprio"), "{denied}");
+    }
+
+    #[test]
+    fn who_works_for_a_loop_never_comes_before_it() {
+        let of_loop = |priority| Scheduling { priority, core: Some(1), lock_memory: true, keep_awake: true };
+        for (loops, below) in [(Some(80), Some(78)), (Some(2), None), (Some(1), None), (None, None)] {
+            assert_eq!(of_loop(loops).below(2), Scheduling { priority: below, ..Scheduling::default() });
+        }
+    }
+
+    #[test]
+    fn nothing_asked_nothing_refused() {
+        assert!(Scheduling::default().ask().refused.is_empty());
+    }
+}
