@@ -85,6 +85,15 @@ impl Walking {
 
     /// One period of both, with what somebody asks.
     pub fn tick_with(&mut self, asked: Option<&Asked>) -> TickReport {
+        self.tick_in(asked, Plant::step)
+    }
+
+    /// The same with the plant moved on by `step`: by another engine, for example.
+    pub fn tick_in(
+        &mut self,
+        asked: Option<&Asked>,
+        step: impl FnOnce(&mut Plant, &Setpoint) -> plant::Measurement,
+    ) -> TickReport {
         self.settle();
         if let Some(asked) = asked {
             assert!(self.controller.is_free(), "one request per tick");
@@ -93,7 +102,7 @@ impl Walking {
         }
         let report = self.controller.tick(PERIOD, Some(&self.measured));
         self.tick += 1;
-        self.measured = sensed(&self.plant.step(&setpoint(&report)));
+        self.measured = sensed(&step(&mut self.plant, &setpoint(&report)));
         report
     }
 

@@ -4,10 +4,14 @@
 //! lockstep in one process, on all cores, with the committed configuration; a seed decides everything. Each survey prints
 //! a table and ends with exit code 1 if something that must not happen happened.
 
+#[cfg(feature = "mujoco")]
+mod agreement;
 mod asked;
 mod cores;
 mod grid;
 mod margins;
+#[cfg(feature = "mujoco")]
+mod mujoco;
 mod needs;
 mod playback;
 mod pushes;
@@ -48,6 +52,12 @@ enum Survey {
     Needs(needs::Options),
     /// The predicted least margin of half-steps against the measured one
     Margins(margins::Options),
+    /// What is granted, walked in MuJoCo
+    #[cfg(feature = "mujoco")]
+    Mujoco(mujoco::Options),
+    /// Random scenarios, half of them hard, in our plant and in MuJoCo: whether both fall or walk, and how near their ZMP is
+    #[cfg(feature = "mujoco")]
+    Agreement(agreement::Options),
 }
 
 fn main() -> ExitCode {
@@ -60,6 +70,10 @@ fn main() -> ExitCode {
         Survey::Variations(options) => variations::survey(options),
         Survey::Needs(options) => needs::survey(options),
         Survey::Margins(options) => margins::survey(options),
+        #[cfg(feature = "mujoco")]
+        Survey::Mujoco(options) => mujoco::survey(options),
+        #[cfg(feature = "mujoco")]
+        Survey::Agreement(options) => agreement::survey(options),
     };
     if passed { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }

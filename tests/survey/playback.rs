@@ -19,6 +19,8 @@ const FLIP: f64 = 0.06;
 
 /// A walk that nobody controls.
 pub struct Playback {
+    /// Where it begins, in physical joints.
+    pub start: Motion,
     tree: Tree,
     walk: Walk,
     lean: PaperLean,
@@ -45,11 +47,13 @@ impl Playback {
         let start = Start { command: Command { speed, ..Command::NOMINAL }, ..Start::default() };
         let walk = Walk::new(table, mechanism, gait, start).expect("the committed nominal walks at this speed");
         let tree = Tree::new(mechanism);
-        let mut plant = Plant::new(mechanism, plant, &lean.lean(&walk.motion()), PERIOD, 0);
+        let start = lean.lean(&walk.motion());
+        let mut plant = Plant::new(mechanism, plant, &start, PERIOD, 0);
         let measured = plant.measure();
         let mut plan = Plan::new(mechanism, &tree, walk.mirror());
         plan.update(&tree, walk.mirror(), &lean.lean(&walk.motion()), false);
         Self {
+            start,
             feedback: Feedback::new(mechanism, feedback),
             kinematics: Kinematics::default(),
             since_swap: f64::INFINITY,
@@ -64,8 +68,17 @@ impl Playback {
 
     /// When it falls [s]; `None` if it walks so many seconds.
     pub fn falls_within(&mut self, seconds: f64) -> Option<f64> {
+        self.falls_in(seconds, Plant::step)
+    }
+
+    /// The same with the plant moved on by `step`: by another engine, for example.
+    pub fn falls_in(
+        &mut self,
+        seconds: f64,
+        mut step: impl FnMut(&mut Plant, &Setpoint) -> Measurement,
+    ) -> Option<f64> {
         while self.plant.time() < seconds {
-            self.tick();
+            self.tick(&mut step);
             if self.plant.truth().has_fallen() {
                 return Some(self.plant.time());
             }
@@ -73,7 +86,7 @@ impl Playback {
         None
     }
 
-    fn tick(&mut self) {
+    fn tick(&mut self, step: impl FnOnce(&mut Plant, &Setpoint) -> Measurement) {
         // Balance answers what was sensed, told from the foot that bore then.
         let sensed = self.centre_of_mass();
         let sensed = Balance { centre_of_mass: sensed, tilt: Vector2::zeros(), zmp: None };
@@ -92,7 +105,8 @@ impl Playback {
             Side::Right => (asked, self.plan.torques),
             Side::Left => (asked.mirrored(mirror), mirror.apply(&self.plan.torques)),
         };
-        self.measured = self.plant.step(&Setpoint { angles: asked.angles, rates: asked.rates, feed_forward: torques });
+        let setpoint = Setpoint { angles: asked.angles, rates: asked.rates, feed_forward: torques };
+        self.measured = step(&mut self.plant, &setpoint);
     }
 
     /// What is added of the lean now, in support coordinates: from what it was, on the other foot, to what it is to be.

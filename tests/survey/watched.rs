@@ -2,9 +2,10 @@
 
 use std::fmt;
 
-use controller::{Intent, Mode, TickReport};
+use controller::{Asked, Intent, Lasting, Mode, Source, TickReport};
 use gait::{Command, Request};
 use halfstep_tests::walking::Walking;
+use plant::{Measurement, Plant, Setpoint};
 
 use crate::asked;
 
@@ -40,8 +41,13 @@ pub struct Fall {
 
 impl Watched {
     /// Watches from now on.
-    pub fn new(mut walking: Walking) -> Self {
-        let report = walking.tick(None);
+    pub fn new(walking: Walking) -> Self {
+        Self::begin_in(walking, Plant::step)
+    }
+
+    /// The same with the plant moved on by `step`: by another engine, for example.
+    pub fn begin_in(mut walking: Walking, step: impl FnOnce(&mut Plant, &Setpoint) -> Measurement) -> Self {
+        let report = walking.tick_in(None, step);
         Self { walking, report, least_margin: f64::INFINITY, largest_lean: 0.0, fall: None }
     }
 
@@ -53,10 +59,21 @@ impl Watched {
 
     /// One period, unless it has fallen.
     pub fn tick(&mut self, request: Option<&Request>) {
+        self.tick_in(request, Plant::step);
+    }
+
+    /// The same with the plant moved on by `step`: by another engine, for example.
+    pub fn tick_in(&mut self, request: Option<&Request>, step: impl FnOnce(&mut Plant, &Setpoint) -> Measurement) {
         if self.fall.is_some() {
             return;
         }
-        let report = self.walking.tick(request.map(|request| (request, Some(Intent::Walk))));
+        let asked = request.map(|request| Asked {
+            request: *request,
+            intent: Some(Intent::Walk),
+            source: Source::Console,
+            lasting: Lasting::UntilChanged,
+        });
+        let report = self.walking.tick_in(asked.as_ref(), step);
         self.report = report;
         if self.walking.has_fallen(&report) {
             self.fall = Some(Fall {
