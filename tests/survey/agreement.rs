@@ -10,7 +10,7 @@ use gait::at_speed;
 use halfstep_tests::walking::{PERIOD, Walking, controller_parameters, nominal, plant_parameters};
 use halfstep_tests::{mechanism, random};
 use model::Joint;
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector2;
 use plant::{Disturbances, Measurement, Plant, Push, Setpoint};
 use rand::Rng;
 

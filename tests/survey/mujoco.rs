@@ -8,7 +8,7 @@ use halfstep_tests::walking::{PERIOD, Walking, controller_parameters, nominal, p
 use model::{Mechanism, Motion};
 use plant::{Disturbances, Measurement, Plant, Setpoint};
 
-use crate::asked::{self, request};
+use crate::asked::request;
 use crate::cores::on_all_cores;
 use crate::streams::Source;
 use crate::table::{self, millimetres};
