@@ -10,7 +10,7 @@ use serde_json::Value;
 
 /// Walks for three seconds, halts the controller for some of it, and gives its summary.
 fn halted(command_line: &CommandLine, halt: Duration) -> Value {
-    let controller = command_line.start_here("controller --for 3s --json");
+    let controller = command_line.start_here("controller --for 3s --out run --json");
     command_line.wait_for_controller();
     let plant = command_line.start_here("plant --for 3s");
     std::thread::sleep(Duration::from_millis(700));
@@ -27,6 +27,10 @@ fn and_one_that_is_late_for_a_moment_walks_on() {
     let summary = halted(&command_line, Duration::from_millis(80));
     assert!(summary["deadline_misses"].as_u64().unwrap() >= 40, "{summary}");
     assert_ne!(summary["mode"], "walking", "{summary}");
+    if summary["log_gaps"] == 0 {
+        // What the loop asked by itself is in the recording, too.
+        assert_eq!(command_line.run("replay run").code, Some(0));
+    }
 
     command_line.edit("config/realtime.toml", "hold_after_misses = 40", "hold_after_misses = 0");
     let summary = halted(&command_line, Duration::from_millis(30));

@@ -38,6 +38,21 @@ fn in_lockstep() {
     }
 }
 
+/// A tick's length is in the recording, whatever the rate.
+#[test]
+fn at_another_rate() {
+    let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
+    command_line.edit("config/realtime.toml", "rate_hz = 1000", "rate_hz = 500");
+    command_line.run("walk --lockstep --for 2s --out run");
+    assert_eq!(command_line.run("replay run").stdout, "identical: 1000 setpoints\n");
+    let events = Recording::open(&command_line.folder().join("run/run.mcap")).unwrap();
+    assert!((last_time(events) - 2.0).abs() < 0.01);
+}
+
+fn last_time(mut recording: Recording) -> f64 {
+    std::iter::from_fn(|| recording.next_event().unwrap()).last().expect("something was recorded").time()
+}
+
 /// Deadlines are missed or not, and what can be granted is found out beside the loop, as the machine likes it.
 #[test]
 fn in_real_time() {

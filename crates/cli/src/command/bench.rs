@@ -80,6 +80,8 @@ enum What {
 
 /// How long before its deadline the spinning loop of `jitter` stops sleeping, unless realtime.toml says.
 const SPIN: Duration = Duration::from_micros(150);
+/// As a process has it at its beginning: controllers are large values, and several are made ready at once [bytes].
+const STACK: usize = 8 << 20;
 /// Round trips of a round at the loop's pace.
 const TRIPS_AT_PACE: u64 = 500;
 /// Periods of the controller flat out.
@@ -122,7 +124,7 @@ impl Bench {
             period: realtime.rate.period_s(),
             scheduling: Scheduling { core, lock_memory, ..Scheduling::default() },
         };
-        Ok(apart(|| compute(&options))?)
+        Ok(apart(|| compute(&options))??)
     }
 
     fn latency(&self, rounds: u32, trips: u64, requests: u32) -> Result<Findings, Failure> {
@@ -140,7 +142,7 @@ impl Bench {
             command.args(priority.into_iter().flat_map(|priority| ["--priority".to_owned(), priority.to_string()]));
             Ok(command)
         };
-        let mut findings = apart(|| exchange(&options, &instance, answering))?;
+        let mut findings = apart(|| exchange(&options, &instance, answering))??;
 
         let options = InCommandOptions { rate: realtime.rate, requests, flat_out: FLAT_OUT, scheduling: scheduling[0] };
         let start = robot.nominal.at(0.0);
@@ -201,7 +203,7 @@ impl Bench {
             .spawn()
             .map_err(cannot)?;
         let _ended = Ended(child);
-        Ok(apart(|| work(&instance))?)
+        Ok(apart(|| work(&instance))??)
     }
 }
 
@@ -236,8 +238,13 @@ fn cores(realtime: &RealtimeParameters) -> Result<[usize; 2], Failure> {
 }
 
 /// Does it in a thread of its own: what that asks of the system is not for this one, nor for the processes it starts.
-fn apart<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    std::thread::scope(|threads| threads.spawn(work).join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+fn apart<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+    let thread = std::thread::Builder::new().name("bench".to_owned()).stack_size(STACK);
+    std::thread::scope(|threads| {
+        let thread = thread.spawn_scoped(threads, work);
+        let thread = thread.map_err(|error| Failure::new(format!("cannot start a thread: {error}")))?;
+        Ok(thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+    })
 }
 
 fn awake_on(core: usize) -> Scheduling {
