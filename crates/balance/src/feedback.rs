@@ -21,6 +21,9 @@ const LEFT_TO_NEXT_ANKLE: Vector2<f64> = Vector2::new(0.05, 0.03);
 /// Farthest that the ankle gives back [m]: 5° of the sole.
 const UNEVENNESS_MAX: f64 = 0.6;
 
+/// Error of the divergent component that is beyond what uneven ground does [m].
+const TROUBLE: f64 = 0.03;
+
 /// A step is no answer to a sensor's glitch: errors count over this time [s], and up to a length [m].
 const ERROR_TIME_CONSTANT: f64 = 0.015;
 const ERROR_MAX: f64 = 0.3;
@@ -99,7 +102,7 @@ impl Feedback {
                 stepped_after = error.cap_magnitude(ERROR_MAX);
                 self.zmp_shift(error, zmp_planned)
             };
-            self.even_out(sensed.zmp.map(|zmp| zmp_planned + shift - zmp), dt);
+            self.even_out(sensed.zmp.map(|zmp| self.inside(zmp_planned + shift) - zmp), dt);
             let shift = shift + self.unevenness;
             // To push the ground further ahead (+x) the body leans back (−y); further left (+y) it leans right (+x).
             self.lean = Vector2::new(shift.y, -shift.x) * self.lean_per_shift;
@@ -139,15 +142,18 @@ impl Feedback {
 
     /// How far the ZMP is to be moved: proportional to the error, and never to where the sole ends.
     fn zmp_shift(&self, error: Vector2<f64>, zmp_planned: Vector2<f64>) -> Vector2<f64> {
-        let room = (self.sole_half_size - Vector2::repeat(self.parameters.edge)).map(|size| size.max(0.0));
-        let wanted = zmp_planned + error * self.parameters.gain - self.sole_centre;
-        let inside = wanted.zip_map(&room, |wanted, room| wanted.min(room).max(-room));
         // A plan outside the sole is not dragged inside by feedback alone: only errors move the point.
-        let shift = inside + self.sole_centre - zmp_planned;
+        let shift = self.inside(zmp_planned + error * self.parameters.gain) - zmp_planned;
         shift.zip_map(&error, |shift, error| {
             let allowed = error * self.parameters.gain;
             shift.min(allowed.max(0.0)).max(allowed.min(0.0))
         })
+    }
+
+    /// The nearest point of the sole that is not too near its edge, where alone the ground can push.
+    fn inside(&self, zmp: Vector2<f64>) -> Vector2<f64> {
+        let room = (self.sole_half_size - Vector2::repeat(self.parameters.edge)).map(|size| size.max(0.0));
+        (zmp - self.sole_centre).zip_map(&room, |zmp, room| zmp.min(room).max(-room)) + self.sole_centre
     }
 
     /// How far the ZMP can be moved from under the ankle, where a walk has it, in the direction of an error [m]. Not from
@@ -177,6 +183,11 @@ impl Feedback {
         self.offsets.accelerations[joint] = (next - rate) / dt;
         self.offsets.rates[joint] = next;
         self.offsets.angles[joint] = angle + next * dt;
+    }
+
+    /// Whether the robot is so far off balance that legs had better not give way: a foot that lands early props it up.
+    pub fn is_in_trouble(&self) -> bool {
+        self.error.amax() > TROUBLE
     }
 
     /// What is added at present: angles with their rates, in support coordinates.

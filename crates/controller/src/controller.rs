@@ -152,7 +152,8 @@ impl Controller {
         self.feedback.update(&self.plan.balance(), sensed.as_ref(), on_both_feet, dt);
 
         // On both feet the weight goes to and fro as the robot comes to rest.
-        let loads = known.filter(|_| !on_both_feet && !self.is_at_swap()).map(|_| self.ground.loads);
+        let yields = !on_both_feet && !self.is_at_swap() && !self.feedback.is_in_trouble();
+        let loads = known.filter(|_| yields).map(|_| self.ground.loads);
         self.landing.update(loads, dt);
         self.pattern.sense_tilt(if known.is_some() && !on_both_feet { self.tilt } else { Vector2::zeros() });
         if known.is_some() {
