@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use balance::Preview;
 use controller::{Asked, Controller, Lasting, Measurement, Source, TickReport};
-use dynamics::{ArticulatedBody, NewtonEuler, Tree, zmp};
+use dynamics::{ArticulatedBody, Batch, LANES, NewtonEuler, Tree, zmp};
 use gait::{NominalTable, Start, Walk};
 use model::{JointVector, Mechanism, Motion, PerJoint};
 use nalgebra::{Isometry3, Vector3};
@@ -93,6 +93,16 @@ fn works(options: &ComputeOptions) -> Result<Vec<Work<'static>>, BenchError> {
         inverse.stand(&of_tree, black_box(&motion));
         black_box(zmp(&inverse.ground));
     };
+    let (of_tree, mut batch, mut lane) = (tree.clone(), Batch::default(), 0);
+    // One configuration per call; every eighth call computes.
+    let eight_at_once = move || {
+        batch.set(lane, black_box(&motion));
+        lane = (lane + 1) % LANES;
+        if lane == 0 {
+            batch.compute(&of_tree);
+            black_box(std::array::from_fn::<_, LANES, _>(|lane| zmp(&batch.ground(lane))));
+        }
+    };
     let mut body = ArticulatedBody::default();
     let forward_dynamics = move || {
         let motion = black_box(&motion);
@@ -123,6 +133,7 @@ fn works(options: &ComputeOptions) -> Result<Vec<Work<'static>>, BenchError> {
 
     Ok(vec![
         Work::batched("Newton–Euler and ZMP, one configuration", newton_euler),
+        Work::batched("Newton–Euler and ZMP, of eight at once", eight_at_once),
         Work::batched("forward dynamics, floating base", forward_dynamics),
         Work::batched("plant, a control period on both soles", plant_period),
         tick,
