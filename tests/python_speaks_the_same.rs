@@ -34,6 +34,32 @@ fn a_script_streams_commands() {
     controller.end();
 }
 
+/// A program that keeps command and then says nothing more: the walk comes to a stand. However long that takes here.
+#[test]
+fn a_program_that_falls_silent_is_no_longer_followed() {
+    let Some(mut python) = python() else { return };
+    let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
+    let controller = command_line.start_here("controller");
+    let plant = command_line.start_here("plant");
+    command_line.wait_for_controller();
+    let program = "
+import sys
+from halfstep import Intent, Mode, Observer, Operator
+operator, observer = Operator(sys.argv[1]), Observer(sys.argv[1])
+print(operator.ask(intent=Intent.WALK, silence_s=0.3).verdict.name)
+for report in observer.reports(silence_max_s=30.0):
+    if report.mode == Mode.STANDING:
+        break
+print('stands')
+";
+    let tools = repository().join("tools/python");
+    let told = python.args(["-c", program, command_line.instance()]).env("PYTHONPATH", tools).output().expect("Python");
+    assert!(told.status.success(), "{}", text(&told.stderr));
+    assert_eq!(text(&told.stdout), "ACCEPTED\nstands\n");
+    plant.end();
+    controller.end();
+}
+
 #[test]
 fn a_script_is_a_plant() {
     let Some(python) = python() else { return };

@@ -12,7 +12,7 @@ import iceoryx2 as iox2
 
 from .errors import HalfstepError, NoController, TimedOut
 from .instance import Agreement, Instance
-from .messages import Intent, Reason, Reply, Report, Request, Source, Verdict
+from .messages import Intent, Lasting, Reason, Reply, Report, Request, Source, Verdict
 
 _TURN, _SPEED, _EXTENSION, _INTENT = 1, 2, 4, 8
 _MARGIN = 4
@@ -78,13 +78,18 @@ class Operator:
         extension_deg: float | None = None,
         intent: Intent | None = None,
         not_before: int = 0,
+        silence_s: float | None = None,
         timeout_s: float = 5.0,
     ) -> Answer:
         """Asks for a set that takes effect whole, and waits for the answer.
 
-        `not_before` is the controller's tick before which it must not take effect: 0 is at once.
+        `not_before` is the controller's tick before which it must not take effect: 0 is at once. With `silence_s` this
+        program is in command from now on, those after it are refused, and the walk comes to a stand when it asks nothing
+        for that long; without, what is asked lasts until another request changes it.
         """
         request = Request(not_before=not_before, source=Source.PROGRAM)
+        if silence_s is not None:
+            request.lasting, request.age_limit = Lasting.WHILE_SPEAKING, silence_s
         for bit, field, value in (
             (_TURN, "turn", turn_deg if turn_deg is None else math.radians(turn_deg)),
             (_SPEED, "speed", speed),
