@@ -8,6 +8,7 @@ use std::process::Stdio;
 
 use dynamics::{NewtonEuler, Tree, mass_matrix};
 use halfstep::mjcf::mjcf_text;
+use halfstep::urdf::urdf_text;
 use halfstep_tests::walking::plant_parameters;
 use halfstep_tests::{mechanism, python, random, random_motion, repository};
 use model::{Joint, Motion};
@@ -50,6 +51,18 @@ fn mujoco_agrees() {
             assert_close(&ours, &numbers(row), "mass matrix");
         }
     }
+}
+
+/// The URDF loads unchanged, too: a fixed right foot and 18 joints.
+#[test]
+fn mujoco_loads_the_urdf() {
+    let Some(mut python) = python() else { return };
+    let program = "import sys, mujoco; print(mujoco.MjModel.from_xml_string(sys.stdin.read()).nv)";
+    let mut child = python.args(["-c", program]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("Python");
+    let text = urdf_text(&mechanism()).expect("a robot");
+    child.stdin.take().expect("a pipe").write_all(text.as_bytes()).expect("somebody who reads");
+    let output = child.wait_with_output().expect("a child");
+    assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), "18");
 }
 
 fn numbers(value: &Value) -> Vec<f64> {

@@ -2,7 +2,7 @@
 //!
 //! A floating tree rooted at the right foot link `right_foot`, whose frame lies on the sole: joints 1 and 2, the contact
 //! of foot and ground, are left out; joints 3 to 20 are revolute and keep their names. Links between joints that meet
-//! in one point weigh nothing: a simulator that needs weight there must be told (MuJoCo: `boundmass`, `boundinertia`).
+//! in one point weigh nothing: MuJoCo, which needs weight there, is told so in an element of its own, which others ignore.
 //!
 //! Pinocchio drops the root link's mass when the base is fixed: load it there with a free-flyer.
 
@@ -19,8 +19,13 @@ use urdf_rs::{
 /// When it cannot be written as XML, which no loaded mechanism should cause.
 pub fn urdf_text(mechanism: &Mechanism) -> Result<String, UrdfError> {
     let robot = urdf_rs::write_to_string(&urdf(mechanism))?;
+    // The first tag is the robot's.
+    let robot = robot.replacen('>', &format!(">{FOR_MUJOCO}"), 1);
     Ok(format!("<?xml version=\"1.0\"?>\n{robot}\n"))
 }
+
+/// Weight for links that have none.
+const FOR_MUJOCO: &str = "\n  <mujoco><compiler boundmass=\"1e-6\" boundinertia=\"1e-9\"/></mujoco>";
 
 /// The mechanism as a URDF robot; see the file's head for what is in it.
 pub fn urdf(mechanism: &Mechanism) -> Robot {
