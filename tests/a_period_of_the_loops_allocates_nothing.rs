@@ -4,8 +4,6 @@
 //! short one: whatever there is belongs to the beginning and the end. What the system did to the loops meanwhile is printed;
 //! that depends on the machine, and on what it may ask for.
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 use std::time::Duration;
 
 use controller::Controller;
@@ -18,31 +16,12 @@ use halfstep::record;
 use halfstep::run_controller::run_controller;
 use halfstep::run_plant::run_plant;
 use halfstep::turns::{Clock, Pace, Turns};
+use halfstep_tests::counting::{Counting, allocations};
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::{controller_parameters, nominal, plant_parameters};
 use plant::{Plant, Setpoint};
 use runtime::{Rate, Scheduling, Usage};
 use wire::{ControllerEnd, Instance, OperatorEnd, PlantEnd, Request, Source};
-
-struct Counting;
-
-thread_local! {
-    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
-}
-
-// SAFETY: hands everything to the system's allocator unchanged.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        // SAFETY: the caller's promise is passed on.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: as above.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
@@ -58,9 +37,9 @@ struct Happened {
 /// Of what `run` does in this thread; it gives the ticks.
 fn watch(run: impl FnOnce() -> u64) -> Happened {
     let _granted = Scheduling { lock_memory: true, ..Scheduling::default() }.ask();
-    let (usage, allocations) = (Usage::of_this_thread(), ALLOCATIONS.get());
+    let (usage, before) = (Usage::of_this_thread(), allocations());
     let ticks = run();
-    Happened { ticks, allocations: ALLOCATIONS.get() - allocations, usage: Usage::of_this_thread().since(usage) }
+    Happened { ticks, allocations: allocations() - before, usage: Usage::of_this_thread().since(usage) }
 }
 
 /// Lets controller and plant walk in real time, in a thread each, with a request in between.

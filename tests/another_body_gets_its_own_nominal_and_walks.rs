@@ -3,6 +3,7 @@
 //! half-steps as the nominal has them, then turns, speeds and step lengths, with noise; no falls.
 
 use std::fs;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use controller::{Intent, Mode};
@@ -10,15 +11,22 @@ use gait::Request;
 use halfstep::import::{NamedText, import};
 use halfstep::urdf::urdf_text;
 use halfstep_tests::walking::{Walking, controller_parameters, plant_parameters};
-use halfstep_tests::{mechanism, repository};
+use halfstep_tests::{mechanism, python, repository};
 use model::{Joint, Mechanism};
 use synthesis::{LegPattern, Parameters, synthesize};
 
+/// Runs where the Python side is installed: the URDF is fetched from PyPI.
 #[test]
 fn a_public_humanoid() {
+    let Some(mut python) = python() else { return };
     let folder = repository().join("examples/gr1t1");
-    let read = |name: &str| fs::read_to_string(folder.join(name)).expect("the example is there");
-    let robot = imported(&read("gr1t1.urdf"), &read("map.toml"));
+    let urdf = Path::new(env!("CARGO_TARGET_TMPDIR")).join("gr1t1.urdf");
+    if !urdf.exists() {
+        let fetched = python.arg(folder.join("fetch.py")).arg(&urdf).status().expect("Python");
+        assert!(fetched.success(), "the package registry has no fourier-robot-descriptions");
+    }
+    let read = |file: PathBuf| fs::read_to_string(file).expect("it is there");
+    let robot = imported(&read(urdf), &read(folder.join("map.toml")));
     assert!((robot.mass() - 52.8268).abs() < 1e-6, "nothing of its mass is lost: {} kg", robot.mass());
     let leg = leg_length(&robot);
     assert!((leg - 0.7).abs() < 1e-9, "{leg} m");

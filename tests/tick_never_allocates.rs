@@ -3,51 +3,29 @@
 //!
 //! Method: an allocator that counts what this thread asks of it.
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-
 use controller::Intent;
 use gait::Request;
+use halfstep_tests::counting::{Counting, allocations};
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::{Walking, controller_parameters, plant_parameters};
-
-struct Counting;
-
-thread_local! {
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-// SAFETY: hands everything to the system's allocator unchanged.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        // SAFETY: the caller's promise is passed on.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: as above.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-fn allocations(work: impl FnOnce()) -> usize {
-    let before = ALLOCATIONS.get();
+fn allocations_of(work: impl FnOnce()) -> u64 {
+    let before = allocations();
     work();
-    ALLOCATIONS.get() - before
+    allocations() - before
 }
 
 #[test]
 fn whatever_happens() {
-    assert!(allocations(|| drop(std::hint::black_box(vec![1]))) > 0, "the allocator does not count");
+    assert!(allocations_of(|| drop(std::hint::black_box(vec![1]))) > 0, "the allocator does not count");
 
     let mut walking = Walking::begin(1);
     let change = Request { turn: Some(0.05), speed: Some(1.05), extension: Some(0.03) };
     let nonsense = Request { turn: Some(f64::NAN), speed: Some(9.0), extension: None };
-    let count = allocations(|| {
+    let count = allocations_of(|| {
         for tick in 0..6000 {
             let request = match tick {
                 500 => Some((&change, None)),
@@ -78,7 +56,7 @@ fn nor_whatever_happens_to_the_robot() {
     };
     let mut walking = Walking::begin_with(&mechanism(), &controller_parameters(), &parameters, 1);
     walking.plant.disturbances = plant::Disturbances::from_toml(script, "script").expect("it is good");
-    let count = allocations(|| {
+    let count = allocations_of(|| {
         for _ in 0..1000 {
             walking.tick(None);
         }

@@ -1,4 +1,4 @@
-//! The robot walks on through sensor faults of 10 ms, and does not fall through any of 100 ms.
+//! The robot walks on through sensor faults of 10 ms, and does not fall through any of 200 ms.
 //!
 //! Method: the nominal walk in lockstep, each fault at two phases of the half-step, and three seconds more.
 
@@ -40,10 +40,10 @@ fn whatever_fails_for_10_ms() {
 }
 
 #[test]
-fn and_stays_up_through_100_ms() {
+fn and_stays_up_through_200_ms() {
     for fault in FAULTS {
         for start in [2.5, 2.85] {
-            mode_after(fault, start, 0.1);
+            mode_after(fault, start, 0.2);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "command-line")]
 pub mod command_line;
+pub mod counting;
 #[cfg(feature = "command-line")]
 pub mod paper;
 pub mod pushing;

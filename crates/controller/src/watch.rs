@@ -19,7 +19,7 @@ const JUMP_MAX: f64 = 0.175;
 /// How far an angular rate may be off the last one [rad/s]: no push turns a trunk so suddenly.
 const RATE_JUMP_MAX: f64 = 5.0;
 /// How long two samples of the gyro say what was between them [s].
-const GYRO_TRUSTED: f64 = 0.2;
+const GYRO_TRUSTED: f64 = 0.25;
 /// How long the trunk must tilt beyond recovery before the robot counts as fallen [s]: no fall ends sooner.
 const TILT_LASTS: f64 = 0.05;
 

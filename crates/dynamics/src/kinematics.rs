@@ -67,21 +67,19 @@ impl Kinematics {
     #[inline(always)]
     pub(crate) fn chain(&mut self, tree: &Tree, angles: &JointVector, joints: impl Iterator<Item = Joint>) {
         let turned = SinCos::of(angles);
-        // Most joints follow the one before: its link is at hand.
-        let mut at_hand = (None, Matrix3::identity(), Vector3::zeros());
         for joint in joints {
             let node = &tree.nodes[joint];
             let (parent_rotation, parent_origin) = match node.parent {
-                Some(parent) if at_hand.0 != Some(parent) => (self.rotation[parent], self.origin[parent]),
-                _ => (at_hand.1, at_hand.2),
+                Some(parent) => (self.rotation[parent], self.origin[parent]),
+                None => (Matrix3::identity(), Vector3::zeros()),
             };
             let (rotation, axis) = node.turn.apply(&parent_rotation, turned.at(joint));
-            let origin = match node.origin {
+            self.rotation[joint] = rotation;
+            self.axis[joint] = axis;
+            self.origin[joint] = match node.origin {
                 Some(origin) => parent_origin + parent_rotation * origin,
                 None => parent_origin,
             };
-            (self.rotation[joint], self.axis[joint], self.origin[joint]) = (rotation, axis, origin);
-            at_hand = (Some(joint), rotation, origin);
         }
     }
 
