@@ -75,6 +75,9 @@ impl Controller {
             _ => None,
         };
         if refusal.is_some() {
+            if let Pattern::Preview(preview) = &mut self.pattern {
+                preview.keep_pace();
+            }
             self.answer = Some(Answer { refusal, ..self.unchanged(Verdict::Refused) });
         } else if let Pattern::Preview(preview) = &mut self.pattern {
             let Some((settled, ruling, intent)) = inquiry.settled_for(preview) else {
@@ -82,7 +85,9 @@ impl Controller {
                 self.desk = Desk::Open(inquiry);
                 return;
             };
-            if ruling.admission.verdict != Verdict::Refused {
+            if ruling.admission.verdict == Verdict::Refused {
+                preview.keep_pace();
+            } else {
                 preview.follow(settled);
                 self.intent = intent.unwrap_or(self.intent);
             }
@@ -107,6 +112,7 @@ impl Controller {
     fn look_into(&mut self, asked: &Asked) {
         match &mut self.pattern {
             Pattern::Preview(preview) => {
+                preview.hasten(&asked.request);
                 self.desk = match std::mem::replace(&mut self.desk, Desk::Away) {
                     Desk::Free(mut inquiry) => {
                         inquiry.open(preview, &asked.request, asked.intent);

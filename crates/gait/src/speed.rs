@@ -65,6 +65,12 @@ impl Speed {
         self.change = (self.duration > 0.0).then_some(Change { ramp, elapsed: 0.0 });
     }
 
+    /// As it was some time ago [s], as far as the change that is under way reaches back.
+    pub fn rewound(&self, by: f64) -> Self {
+        let change = self.change.map(|change| Change { elapsed: (change.elapsed - by).max(0.0), ..change });
+        Self { change, ..*self }
+    }
+
     /// Moves on by `dt` [s] and returns the nominal time that passes meanwhile, `∫c dt` [s], exactly.
     pub fn advance(&mut self, dt: f64) -> f64 {
         let Some(change) = &mut self.change else {
@@ -108,6 +114,17 @@ mod tests {
         assert!((after.value - before.value).abs() < 1e-15);
         assert!((after.rate - before.rate).abs() < 1e-14);
         assert!((after.acceleration - before.acceleration).abs() < 1e-13);
+    }
+
+    #[test]
+    fn it_was_what_it_was() {
+        let mut speed = Speed::new(1.0, RampKind::Quintic, 0.6);
+        speed.request(1.4);
+        speed.advance(0.25);
+        let mut later = speed;
+        later.advance(0.1);
+        assert!((later.rewound(0.1).state().value - speed.state().value).abs() < 1e-15);
+        assert_eq!(later.rewound(1.0).state().value, 1.0);
     }
 
     #[test]

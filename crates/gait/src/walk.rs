@@ -181,6 +181,11 @@ impl Walk {
         effect_half_step
     }
 
+    /// Takes a speed that has been changing elsewhere as the one of now.
+    pub fn take_over_speed(&mut self, speed: Speed) {
+        self.speed = speed;
+    }
+
     /// Moves on by `dt` [s] and says whether a new half-step began. Progress beyond the end is carried over the swap.
     ///
     /// A `dt` that is negative or NaN counts as none, one beyond a nominal half-step as a nominal half-step.

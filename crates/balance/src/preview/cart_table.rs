@@ -5,7 +5,7 @@
 //! knot. Optimal for the sum of `(ZMP − wanted)² + jerk_weight·jerk²`: the path is smooth (C²) whatever is wanted, and it
 //! sways before the foot changes, as it must.
 
-use nalgebra::{Matrix3, RowVector3, Vector3};
+use nalgebra::{Matrix3, RowVector3, Vector2, Vector3};
 
 /// Gains for one model height and knot length.
 #[derive(Clone, Debug)]
@@ -74,12 +74,35 @@ impl CartTable {
         &self.preview
     }
 
+    /// The sum of values in the coming knots, each times its gain, along both axes; the next knot's value is at `next` of a
+    /// ring that holds as many knots or more.
+    pub fn weigh(&self, ring: &[Vector2<f64>], next: usize) -> Vector2<f64> {
+        let (later, sooner) = ring.split_at(next);
+        let (soon, late) = self.preview.split_at(sooner.len().min(self.knots()));
+        weighted_sum(sooner, soon) + weighted_sum(later, late)
+    }
+
     /// The state one knot later; `wanted` is the sum of what is wanted of the ZMP in the coming knots, each times its
     /// [`gain`](Self::gains).
     pub fn advance(&self, state: &CartState, wanted: f64) -> CartState {
         let jerk = wanted - (self.feedback * state)[0];
         self.transition * state + self.input * jerk
     }
+}
+
+/// In four parts, so that no addition has to wait for the one before.
+fn weighted_sum(values: &[Vector2<f64>], gains: &[f64]) -> Vector2<f64> {
+    let count = values.len().min(gains.len());
+    let ((values, last_values), (gains, last_gains)) =
+        (values[..count].as_chunks::<4>(), gains[..count].as_chunks::<4>());
+    let mut sums = [Vector2::zeros(); 4];
+    for (values, gains) in values.iter().zip(gains) {
+        for part in 0..4 {
+            sums[part] += values[part] * gains[part];
+        }
+    }
+    let rest: Vector2<f64> = last_values.iter().zip(last_gains).map(|(value, gain)| value * *gain).sum();
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 #[cfg(test)]
@@ -121,6 +144,18 @@ mod tests {
             state = cart.advance(&state, sum);
         }
         assert!((state[0] - 1000.0).abs() < 1e-6, "drifted to {} m", state[0]);
+    }
+
+    /// A ring of more knots than there are gains, wherever it begins.
+    #[test]
+    fn a_ring_is_weighed_from_its_next_knot_on() {
+        let cart = CartTable::new(HEIGHT_OVER_GRAVITY, KNOT, 9, 1e-9);
+        let value = |knot: usize| Vector2::new((knot as f64).sin(), (knot as f64).cos());
+        let expected: Vector2<f64> = cart.gains().iter().enumerate().map(|(ahead, gain)| value(ahead) * *gain).sum();
+        for next in 0..11 {
+            let ring: Vec<_> = (0..11).map(|slot| value((slot + 11 - next) % 11)).collect();
+            assert!((cart.weigh(&ring, next) - expected).amax() < 1e-12 * expected.amax(), "from {next}");
+        }
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Foresight: the whole body is played ahead over the pendulum's plan, to see by how much its ZMP will miss (the second
 //! preview of Kajita et al. 2003).
 
-use dynamics::{NewtonEuler, zmp};
-use model::{JointVector, Motion, Side};
+use dynamics::{Batch, LANES, NewtonEuler, zmp};
+use model::{JointVector, Motion, Side, Wrench};
 use nalgebra::Vector2;
 
 use crate::preview::biped::KNOTS_FORESEEN;
@@ -17,12 +17,17 @@ pub struct Foresight {
     outlook: Outlook,
     body: WholeBody,
     inverse: NewtonEuler,
+    batch: Batch,
     /// A ring: the knot before the present one, the present one, the coming ones.
     knots: [Foreseen; KNOTS_FORESEEN + 2],
+    /// What the pendulum leaves out of the ZMP at each of them and the outlook does not expect, in the walk frame [m].
+    unexpected: [Vector2<f64>; KNOTS_FORESEEN + 2],
     /// Where in it the present knot is.
     present: usize,
     /// How many knots after the present one are known.
     ahead: usize,
+    /// What the correction is to do about all of them, along both axes of the walk frame.
+    weighed: Vector2<f64>,
     /// What is to be done next about the farthest one.
     stage: Stage,
 }
@@ -30,12 +35,16 @@ pub struct Foresight {
 /// A knot more is seen in parts, so that no tick does all of it.
 #[derive(Clone, Copy, Debug)]
 enum Stage {
-    /// Where the feet are and the pendulum is.
+    /// Where the pendulum is.
     Pendulum,
+    /// Where the feet are.
+    Feet,
     /// The posture that does it; with the foot that bore at the knot before.
     Posture(Footprint),
     /// What the pendulum leaves out of the ZMP of the knot before: only then it has a neighbour on either side.
     Zmp(Footprint),
+    /// What is to be done about all of it.
+    Correction,
 }
 
 /// One knot to come.
@@ -49,8 +58,6 @@ struct Foreseen {
     angles: JointVector,
     /// What the outlook takes the pendulum to leave out of the ZMP, in the walk frame [m].
     expected: Vector2<f64>,
-    /// What it leaves out besides [m].
-    unexpected: Vector2<f64>,
 }
 
 impl Foresight {
@@ -58,7 +65,7 @@ impl Foresight {
     pub fn new(biped: &Biped, footwork: &Footwork, com: [CartState; 2], motion: &Motion) -> Self {
         let angles = footwork.physical(biped, &motion.angles);
         let wanted = footwork.wanted(biped, place(&com));
-        let now = Foreseen { com, wanted, angles, expected: Vector2::zeros(), unexpected: Vector2::zeros() };
+        let now = Foreseen { com, wanted, angles, expected: Vector2::zeros() };
         let before = Foreseen { angles: footwork.physical(biped, &(motion.angles - motion.rates * KNOT)), ..now };
         let mut knots = [before; KNOTS_FORESEEN + 2];
         knots[0] = now;
@@ -67,9 +74,12 @@ impl Foresight {
             footwork: footwork.clone(),
             body: WholeBody::new(biped, &motion.angles),
             inverse: NewtonEuler::default(),
+            batch: Batch::default(),
             knots,
+            unexpected: [Vector2::zeros(); KNOTS_FORESEEN + 2],
             present: 0,
             ahead: 0,
+            weighed: Vector2::zeros(),
             stage: Stage::Pendulum,
         };
         foresight.begin(biped, footwork);
@@ -95,6 +105,9 @@ impl Foresight {
 
     /// Sees all that is to be seen.
     pub fn complete(&mut self, biped: &Biped) {
+        while self.missing() >= LANES && matches!(self.stage, Stage::Pendulum) {
+            self.extend_by_batch(biped);
+        }
         while self.missing() > 0 {
             self.extend(biped);
         }
@@ -113,6 +126,29 @@ impl Foresight {
         }
     }
 
+    /// Sees [`LANES`] knots more, their dynamics at once.
+    fn extend_by_batch(&mut self, biped: &Biped) {
+        let first = self.ahead;
+        let mut footprints = [self.footwork.course.feet.footprint; LANES];
+        for (lane, footprint) in footprints.iter_mut().enumerate() {
+            self.ahead = first + lane;
+            while !matches!(self.stage, Stage::Zmp(_)) {
+                self.work(biped);
+            }
+            if let Stage::Zmp(before) = std::mem::replace(&mut self.stage, Stage::Pendulum) {
+                *footprint = before;
+                self.batch.set(lane, &self.motion_over(biped, before));
+            }
+        }
+        self.batch.compute(&biped.tree);
+        for (lane, footprint) in footprints.into_iter().enumerate() {
+            self.ahead = first + lane;
+            self.note_missed(biped, footprint, &self.batch.ground(lane));
+            self.stage = Stage::Correction;
+            self.work(biped);
+        }
+    }
+
     /// The next knot becomes the present one; to be seen completely before the next time.
     pub fn advance(&mut self) {
         self.present = self.slot(1);
@@ -122,9 +158,11 @@ impl Foresight {
     /// Sees as much of the knot that is missing as is due when a share of the time to the next knot has passed.
     pub fn keep_up(&mut self, biped: &Biped, share: f64) {
         let done = |stage| match stage {
-            Stage::Pendulum => 0.25,
-            Stage::Posture(_) => 0.5,
-            Stage::Zmp(_) => 0.75,
+            Stage::Pendulum => 0.15,
+            Stage::Feet => 0.3,
+            Stage::Posture(_) => 0.45,
+            Stage::Zmp(_) => 0.6,
+            Stage::Correction => 0.75,
         };
         while self.missing() > 0 && done(self.stage) <= share {
             self.work(biped);
@@ -138,34 +176,38 @@ impl Foresight {
         Wanted { com: footprint.point_to_support(place(com) + correction), ..*wanted }
     }
 
-    /// What the correction is to do about the coming knots, each times its gain, along both axes of the walk frame.
-    pub fn weighed(&self, biped: &Biped) -> Vector2<f64> {
-        let (early, late) = self.knots.split_at(self.present);
-        let coming = late[1..].iter().chain(early).take(KNOTS_FORESEEN);
-        let sum: Vector2<f64> = coming.zip(biped.correction.gains()).map(|(knot, gain)| knot.unexpected * *gain).sum();
-        -sum
+    /// What the correction is to do about the coming knots, once all are seen: each times its gain, along both axes of the
+    /// walk frame.
+    pub fn weighed(&self) -> Vector2<f64> {
+        self.weighed
     }
 
     fn slot(&self, ahead: usize) -> usize {
         (self.present + ahead) % self.knots.len()
     }
 
+    /// The farthest knot, which is being seen, and the two before it; that first.
+    fn last_three(&self) -> [usize; 3] {
+        [self.ahead + self.knots.len() - 1, self.ahead, self.ahead + 1].map(|ahead| self.slot(ahead))
+    }
+
     fn work(&mut self, biped: &Biped) {
-        let [before, last, new] =
-            [self.ahead + self.knots.len() - 1, self.ahead, self.ahead + 1].map(|ahead| self.slot(ahead));
+        let [_, last, new] = self.last_three();
         let footprint = self.footwork.course.feet.footprint;
         self.stage = match self.stage {
             Stage::Pendulum => {
                 let sum = self.outlook.weighed(&biped.pendulum);
                 let com = self.knots[last].com;
-                let com = [0, 1].map(|axis| biped.pendulum.advance(&com[axis], sum[axis]));
+                self.knots[new].com = [0, 1].map(|axis| biped.pendulum.advance(&com[axis], sum[axis]));
                 self.outlook.advance(biped);
+                Stage::Feet
+            }
+            Stage::Feet => {
                 if self.footwork.advance(biped) {
                     self.body.swap(biped);
                 }
                 let Course { feet, .. } = &self.footwork.course;
-                self.knots[new].com = com;
-                self.knots[new].wanted = self.footwork.wanted(biped, place(&com));
+                self.knots[new].wanted = self.footwork.wanted(biped, place(&self.knots[new].com));
                 self.knots[new].expected =
                     feet.footprint.direction_to_walk(self.footwork.course.beyond_pendulum(biped));
                 Stage::Posture(footprint)
@@ -177,31 +219,45 @@ impl Foresight {
                 Stage::Zmp(before)
             }
             Stage::Zmp(footprint) => {
-                let missed = self.missed(biped, footprint, [before, last, new]);
-                let missed = missed.unwrap_or(self.knots[last].unexpected);
-                self.knots[last].unexpected = missed;
-                self.knots[new].unexpected = missed;
+                let motion = self.motion_over(biped, footprint);
+                let ground = self.inverse.ground_wrench(&biped.tree, &motion);
+                self.note_missed(biped, footprint, &ground);
+                Stage::Correction
+            }
+            Stage::Correction => {
                 self.ahead += 1;
+                if self.missing() == 0 {
+                    self.weighed = -biped.correction.weigh(&self.unexpected, self.slot(1));
+                }
                 Stage::Pendulum
             }
         };
     }
 
-    /// What the pendulum leaves out of the ZMP and nobody expected at the middle one of three knots, in the walk frame [m].
-    fn missed(&mut self, biped: &Biped, footprint: Footprint, slots: [usize; 3]) -> Option<Vector2<f64>> {
-        let [before, here, after] = slots.map(|slot| &self.knots[slot].angles);
+    /// The motion at the farthest knot but one, over the foot that bears there.
+    fn motion_over(&self, biped: &Biped, footprint: Footprint) -> Motion {
+        let [before, here, after] = self.last_three().map(|slot| &self.knots[slot].angles);
         let motion = Motion::between(before, here, after, KNOT);
-        let ground = match footprint.side {
-            Side::Right => self.inverse.ground_wrench(&biped.tree, &motion),
-            Side::Left => self.inverse.ground_wrench(&biped.tree, &motion.mirrored(&biped.mirror)),
-        };
-        let whole = footprint.point_to_walk(zmp(&ground)?);
-        let knot = &self.knots[slots[1]];
-        let pendulum = Vector2::from([0, 1].map(|axis| {
-            let [position, _, acceleration] = knot.com[axis].into();
-            position - biped.sway.height_over_gravity * acceleration
-        }));
-        Some(whole - pendulum - knot.expected)
+        match footprint.side {
+            Side::Right => motion,
+            Side::Left => motion.mirrored(&biped.mirror),
+        }
+    }
+
+    /// Notes what the pendulum leaves out of that motion's ZMP and nobody expected; the farthest knot is taken to be alike.
+    ///
+    /// * `ground` – what the motion needs
+    fn note_missed(&mut self, biped: &Biped, footprint: Footprint, ground: &Wrench) {
+        let [_, here, new] = self.last_three();
+        if let Some(point) = zmp(ground) {
+            let knot = &self.knots[here];
+            let pendulum = Vector2::from([0, 1].map(|axis| {
+                let [position, _, acceleration] = knot.com[axis].into();
+                position - biped.sway.height_over_gravity * acceleration
+            }));
+            self.unexpected[here] = footprint.point_to_walk(point) - pendulum - knot.expected;
+        }
+        self.unexpected[new] = self.unexpected[here];
     }
 }
 

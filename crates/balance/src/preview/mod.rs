@@ -20,7 +20,9 @@ mod hip_height;
 mod landing_shift;
 mod nominal_sway;
 mod outlook;
+mod pace;
 mod planner;
+mod playback;
 mod swing_path;
 mod whole_body;
 
@@ -39,6 +41,8 @@ pub use hip_height::HipHeight;
 pub use landing_shift::LandingShift;
 pub use nominal_sway::NominalSway;
 pub use outlook::Outlook;
+pub use pace::Pace;
 pub use planner::{KNOT, Preview};
+pub use playback::{Knot, Playback};
 pub use swing_path::{SwingPath, smooth_step};
 pub use whole_body::{Wanted, WholeBody};

@@ -43,11 +43,6 @@ impl Outlook {
 
     /// The sum of what is wanted, each knot times its gain, along both axes of the walk frame.
     pub fn weighed(&self, cart: &CartTable) -> Vector2<f64> {
-        let (later, sooner) = self.wanted.split_at(self.next);
-        let (soon, late) = cart.gains().split_at(sooner.len());
-        let weigh = |wanted: &[Vector2<f64>], gains: &[f64]| -> Vector2<f64> {
-            wanted.iter().zip(gains).map(|(wanted, gain)| wanted * *gain).sum()
-        };
-        weigh(sooner, soon) + weigh(later, late)
+        cart.weigh(&self.wanted, self.next)
     }
 }

@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use dynamics::Kinematics;
 use gait::{Admission, Command, HalfStep, Request, Walk};
-use model::{GRAVITY, Joint, JointVector, Mechanism, Motion, Side};
+use model::{GRAVITY, Joint, Mechanism, Motion, Side};
 use nalgebra::Vector2;
 
 use crate::preview::{
-    Biped, CartState, Change, Course, Draft, Floor, Footprint, Footwork, Foresight, Gate, Goal, Height, WholeBody,
+    Biped, CartState, Change, Course, Draft, Floor, Footprint, Footwork, Foresight, Gate, Goal, Height, Knot, Playback,
+    WholeBody,
 };
 
 /// Time between knots [s].
@@ -33,31 +34,12 @@ pub struct Preview {
     height: Height,
     /// How the body is turned beyond the plan, about x and y of support coordinates [rad].
     tilt: Vector2<f64>,
-    /// The last four knots, oldest first; now is between the second and the third.
-    knots: [Knot; 4],
+    playback: Playback,
     /// Counts what was planned.
     stamp: u64,
-    /// Since the second knot [s].
-    elapsed: f64,
     /// Knots since the landing was shifted last.
     since_shift: u32,
     unreachable: bool,
-}
-
-/// One realised instant.
-#[derive(Clone, Copy, Debug)]
-struct Knot {
-    /// Physical joints.
-    angles: JointVector,
-    /// The bearing foot.
-    footprint: Footprint,
-    /// Half-steps since the beginning, with their progress.
-    place: f64,
-    speed: f64,
-    /// How the vertical is taken to lean over the floor, in the walk frame: x and y of the unit vector [-].
-    vertical: Vector2<f64>,
-    /// Share of the weight that the bearing foot carries.
-    weight: f64,
 }
 
 impl Preview {
@@ -106,9 +88,8 @@ impl Preview {
             floor: Floor::default(),
             height: Height::default(),
             tilt: Vector2::zeros(),
-            knots: [knot; 4],
+            playback: Playback::new([knot; 4]),
             stamp: 0,
-            elapsed: 0.0,
             since_shift: 0,
             unreachable: false,
             biped: Arc::new(biped),
@@ -118,17 +99,18 @@ impl Preview {
         let before = preview.footwork.physical(&preview.biped, &(motion.angles - motion.rates * KNOT));
         let place = knot.place - knot.speed * KNOT / preview.walk().table().duration;
         preview.plan_knot();
-        preview.knots[2] = preview.knots[3];
+        let next = *preview.playback.newest();
         preview.plan_knot();
-        preview.knots[0] = Knot { angles: before, place, ..knot };
-        preview.knots[1] = knot;
+        preview.playback =
+            Playback::new([Knot { angles: before, place, ..knot }, knot, next, *preview.playback.newest()]);
         preview
     }
 
     /// Goes on as `other`, a copy of this with something else asked of it, at the same instant.
     pub fn follow(&mut self, other: &Self) {
-        let Self { elapsed, floor, height, tilt, since_shift, .. } = *self;
-        *self = Self { elapsed, floor, height, tilt, since_shift, ..other.clone() };
+        let Self { playback, floor, height, tilt, since_shift, .. } = *self;
+        *self = Self { playback, floor, height, tilt, since_shift, ..other.clone() };
+        self.playback.is_planned(self.walk().command().speed);
     }
 
     /// Another number whenever the plan has changed: copies of the same number are the same but for the instant.
@@ -136,10 +118,31 @@ impl Preview {
         self.stamp
     }
 
+    /// Plays a speed that is asked for from now on, if half-steps are walked; to be followed by a plan for it.
+    pub fn hasten(&mut self, request: &Request) {
+        let course = &self.footwork.course;
+        let target = course.walk.grant(request, course.command()).granted.speed;
+        if course.gate == Gate::Open && target != course.walk.speed().target() {
+            self.playback.hasten(course.walk.speed(), target);
+        }
+    }
+
+    /// Plays no other speed than planned: none was granted.
+    pub fn keep_pace(&mut self) {
+        self.playback.keep_pace();
+    }
+
     /// See [`Course::admit`].
     pub fn admit(&mut self, request: &Request) -> Admission {
         let before = self.footwork.course.command();
         let admission = self.footwork.course.admit(request);
+        let walk = &mut self.footwork.course.walk;
+        let speed = walk.speed().target();
+        if speed != before.speed
+            && let Some(pace) = self.playback.pace_at_newest(speed)
+        {
+            walk.take_over_speed(pace);
+        }
         if self.footwork.course.command() != before {
             self.look_ahead();
         }
@@ -177,8 +180,8 @@ impl Preview {
 
     /// Has something changed by the time it is played ahead; says whether there is anything to change.
     fn change_soon(&mut self, change: Change) -> bool {
-        let Self { biped, footwork, foresight, draft, elapsed, .. } = self;
-        let changes = draft.begin(biped, footwork, foresight, change, *elapsed);
+        let Self { biped, footwork, foresight, draft, playback, .. } = self;
+        let changes = draft.begin(biped, footwork, foresight, change, playback.elapsed());
         if changes {
             self.stamp += 1;
         }
@@ -194,48 +197,34 @@ impl Preview {
     pub fn advance(&mut self, dt: f64) -> bool {
         let before = self.half_step().index;
         let dt = dt.min(self.footwork.course.walk.table().duration).max(0.0);
-        self.elapsed += dt;
-        while self.elapsed >= KNOT {
-            self.elapsed -= KNOT;
+        self.playback.advance(dt);
+        while self.playback.passes_knot() {
             self.plan_knot();
         }
-        self.foresight.keep_up(&self.biped, self.elapsed / KNOT);
-        self.draft.work(&self.biped, self.elapsed, dt);
+        let elapsed = self.playback.elapsed();
+        self.foresight.keep_up(&self.biped, elapsed / KNOT);
+        self.draft.work(&self.biped, elapsed, dt);
         self.half_step().index != before
     }
 
     /// Where the walk is now.
     pub fn half_step(&self) -> HalfStep {
-        let place = self.place();
-        let newest = self.footwork.course.walk.half_step();
-        let index = place.floor();
-        let behind = newest.index.saturating_sub(index as u64);
-        HalfStep {
-            index: index as u64,
-            support: if behind.is_multiple_of(2) { newest.support } else { newest.support.other() },
-            progress: place - index,
-        }
+        self.playback.half_step(self.footwork.course.walk.half_step())
     }
 
     /// The speed factor of now.
     pub fn speed(&self) -> f64 {
-        let [_, from, to, _] = &self.knots;
-        from.speed + (to.speed - from.speed) * self.elapsed / KNOT
+        self.playback.speed()
     }
 
     /// Share of the weight that the bearing foot is to carry now.
     pub fn weight_on_bearing(&self) -> f64 {
-        let [_, from, to, _] = &self.knots;
-        from.weight + (to.weight - from.weight) * self.elapsed / KNOT
+        self.playback.weight_on_bearing()
     }
 
     /// What is asked now, in physical joints.
     pub fn physical_motion(&self) -> Motion {
-        let [before, from, to, after] = &self.knots;
-        let state = |before: &Knot, here: &Knot, after: &Knot| {
-            Motion::between(&before.angles, &here.angles, &after.angles, KNOT)
-        };
-        gait::interpolate(&state(before, from, to), &state(from, to, after), self.elapsed / KNOT, KNOT)
+        self.playback.physical_motion()
     }
 
     /// What is asked now, in support coordinates. Joints 1 and 2 tell how the sole lies on a slope.
@@ -244,10 +233,7 @@ impl Preview {
             Side::Right => self.physical_motion(),
             Side::Left => self.physical_motion().mirrored(self.footwork.course.walk.mirror()),
         };
-        let [_, from, to, _] = &self.knots;
-        let change = to.vertical - from.vertical;
-        let vertical = self.footprint().direction_to_support(from.vertical + change * (self.elapsed / KNOT));
-        let rate = self.footprint().direction_to_support(change / KNOT);
+        let [vertical, rate] = self.playback.vertical().map(|vertical| self.footprint().direction_to_support(vertical));
         // The turn that brings the vertical upright.
         (motion.angles[Joint::FootRoll], motion.angles[Joint::FootPitch]) = (vertical.y, -vertical.x);
         (motion.rates[Joint::FootRoll], motion.rates[Joint::FootPitch]) = (rate.y, -rate.x);
@@ -291,8 +277,7 @@ impl Preview {
 
     /// The foot that bears now.
     fn footprint(&self) -> &Footprint {
-        let [_, from, to, _] = &self.knots;
-        if self.half_step().support == from.footprint.side { &from.footprint } else { &to.footprint }
+        self.playback.footprint(self.half_step().support)
     }
 
     /// Whether a leg was too short at the newest knot, so that the posture before was kept.
@@ -310,17 +295,12 @@ impl Preview {
         &self.biped.tree
     }
 
-    fn place(&self) -> f64 {
-        let [_, from, to, _] = &self.knots;
-        (from.place + (to.place - from.place) * self.elapsed / KNOT).max(0.0)
-    }
-
     /// Plans and realises one more knot.
     fn plan_knot(&mut self) {
         self.since_shift = self.since_shift.saturating_add(1);
         let biped = &*self.biped;
         self.foresight.complete(biped);
-        let wanted = self.foresight.weighed(biped);
+        let wanted = self.foresight.weighed();
         self.correction = [0, 1].map(|axis| biped.correction.advance(&self.correction[axis], wanted[axis]));
         self.foresight.advance();
         if self.footwork.advance(biped) {
@@ -343,17 +323,15 @@ impl Preview {
         wanted.hip_height += self.height.of_hips();
         let reached = self.body.reach(biped, &wanted);
         self.unreachable = reached.is_err();
-        let angles = reached.map_or(self.knots[3].angles, |angles| self.footwork.physical(biped, &angles));
-        let knot = Knot {
+        let angles = reached.map_or(self.playback.newest().angles, |angles| self.footwork.physical(biped, &angles));
+        self.playback.push(Knot {
             angles,
             footprint: self.footwork.course.feet.footprint,
             place: self.footwork.place(),
             speed: self.footwork.speed(),
             vertical: self.floor.lean(),
             weight: self.footwork.course.gate.weight_on_bearing(),
-        };
-        self.knots.rotate_left(1);
-        self.knots[3] = knot;
+        });
         self.stamp += 1;
     }
 }
