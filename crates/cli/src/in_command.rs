@@ -30,7 +30,7 @@ pub struct InCommandOptions {
 }
 
 /// A robot's other side: who hears setpoints and answers with measurements.
-struct Robot<'r> {
+pub struct Robot<'r> {
     plant: &'r mut Plant,
     end: PlantEnd,
     setpoint: Setpoint,
@@ -179,7 +179,11 @@ pub fn flat_out(
 }
 
 impl<'r> Robot<'r> {
-    fn connect(instance: &Instance, mechanism: &Mechanism, plant: &'r mut Plant) -> Result<Self, BenchError> {
+    /// Takes the plant's place at an instance.
+    ///
+    /// # Errors
+    /// The place is taken.
+    pub fn connect(instance: &Instance, mechanism: &Mechanism, plant: &'r mut Plant) -> Result<Self, BenchError> {
         let end = PlantEnd::connect(instance, mechanism.fingerprint);
         let end = end.map_err(|error| BenchError::new("the plant's services", error))?;
         let setpoint = Setpoint { angles: plant.robot.angles, ..Setpoint::default() };
@@ -187,14 +191,14 @@ impl<'r> Robot<'r> {
     }
 
     /// The tick of a setpoint that has come.
-    fn hear(&mut self) -> Option<u64> {
+    pub fn hear(&mut self) -> Option<u64> {
         let setpoint = self.end.setpoints.news()?.checked().ok()?;
         self.setpoint = exchange::setpoint::for_plant(&setpoint);
         Some(setpoint.tick)
     }
 
     /// Simulates a period and tells what is sensed: the measurement's tick, and when it was written [ns].
-    fn step(&mut self) -> (u64, u64) {
+    pub fn step(&mut self) -> (u64, u64) {
         let measured = if self.tick == 0 { self.plant.measure() } else { self.plant.step(&self.setpoint) };
         let written_ns = now_ns();
         self.end.measurements.write(&exchange::measurement::message(self.tick, written_ns, &measured));
@@ -210,7 +214,11 @@ fn sleep_until(time_ns: u64) {
     }
 }
 
-fn patiently<T, E: std::fmt::Display>(connect: impl Fn() -> Result<T, E>) -> Result<T, BenchError> {
+/// Connects as soon as the other side is there.
+///
+/// # Errors
+/// It does not come.
+pub fn patiently<T, E: std::fmt::Display>(connect: impl Fn() -> Result<T, E>) -> Result<T, BenchError> {
     let began_ns = now_ns();
     loop {
         match connect() {

@@ -16,6 +16,7 @@ pub mod import;
 pub mod in_command;
 pub mod inbox;
 pub mod interrupt;
+pub mod loop_times;
 pub mod mjcf;
 pub mod operator;
 pub mod paper;
@@ -34,6 +35,7 @@ pub mod summary;
 pub mod turns;
 pub mod urdf;
 pub mod voice;
+pub mod watched;
 pub mod words;
 
 use std::process::ExitCode;

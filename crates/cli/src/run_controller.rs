@@ -9,6 +9,7 @@ use crate::advisor::Advisor;
 use crate::clerk::LetterId;
 use crate::exchange;
 use crate::inbox::Inbox;
+use crate::loop_times::{KeptTime, LoopTimes};
 use crate::record::{ControllerEntry, ControllerNews, Record};
 use crate::turns::{PeerSilent, Turns};
 
@@ -23,6 +24,8 @@ pub struct ControllerRun {
     pub half_steps: u64,
     /// What it was doing at last; `None` if it never began.
     pub mode: Option<Mode>,
+    /// How late periods began and what they took; in lockstep they are never late.
+    pub kept_time: KeptTime,
 }
 
 /// What the loop asks by itself when it is too late too often.
@@ -52,6 +55,7 @@ pub fn run_controller(
     hold_after_misses: u64,
 ) -> Result<ControllerRun, PeerSilent> {
     let mut run = ControllerRun::default();
+    let mut times = LoopTimes::new();
     let mut asked = None;
     let mut must_stand = false;
     while let Some(turn) = turns.wait(|| inbox.collect(record))? {
@@ -82,6 +86,7 @@ pub fn run_controller(
 
         setpoints.write(&exchange::setpoint::message(turn.message.tick, time_ns, &report.setpoint));
         let compute_ns = now_ns() - time_ns;
+        times.add(turn.late_ns, compute_ns);
 
         let (tick, periods, dt, measurement) = (turn.tick, turn.periods, turn.dt, turn.message);
         let (late, missed) = (turn.missed > 0, run.missed);
@@ -100,9 +105,9 @@ pub fn run_controller(
         }));
         inbox.answer(asked.take_if(|_| report.answer.is_some()), &report, record);
         let (half_steps, mode) = (report.half_step.index, Some(report.mode));
-        run = ControllerRun { ticks: turn.tick + 1, missed, half_steps, mode };
+        run = ControllerRun { ticks: turn.tick + 1, missed, half_steps, mode, ..run };
     }
-    Ok(run)
+    Ok(ControllerRun { kept_time: times.kept(), ..run })
 }
 
 #[cfg(test)]

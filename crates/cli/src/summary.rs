@@ -5,6 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::inbox::Tally;
+use crate::loop_times::KeptTime;
 use crate::run_log::{Fall, Measures};
 
 /// What the controller's process has to say at its end.
@@ -20,6 +21,8 @@ pub struct ControllerSummary {
     pub requests: Tally,
     /// Deadlines missed.
     pub deadline_misses: u64,
+    /// How its loop kept time, if it ran in real time.
+    pub kept_time: Option<KeptTime>,
     /// Ticks that the log lacks because its writer fell behind.
     pub log_gaps: u64,
 }
@@ -59,6 +62,8 @@ pub struct WalkSummary {
     pub clock: &'static str,
     /// Deadlines missed by controller and plant.
     pub deadline_misses: u64,
+    /// How the controller's loop kept time, in real time.
+    pub kept_time: Option<KeptTime>,
     /// Rows that the logs lack because their writers fell behind.
     pub log_gaps: u64,
     /// Walked time over the time it took.
@@ -67,13 +72,14 @@ pub struct WalkSummary {
 
 impl fmt::Display for ControllerSummary {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        let Self { ticks, half_steps, mode, requests, deadline_misses, log_gaps } = self;
+        let Self { ticks, half_steps, mode, requests, deadline_misses, kept_time, log_gaps } = self;
         let mode = if mode.is_empty() { "never began" } else { mode };
         write!(
             out,
             "{ticks} ticks, {half_steps} half-steps, {mode}; {requests}; {deadline_misses} deadlines missed, {log_gaps} \
              reports dropped"
-        )
+        )?;
+        kept_time.map_or(Ok(()), |kept_time| write!(out, "; {kept_time}"))
     }
 }
 
@@ -117,7 +123,11 @@ impl fmt::Display for WalkSummary {
             }
         }
         writeln!(out, "{}", self.requests)?;
-        let Self { real_time_factor, deadline_misses, log_gaps, .. } = self;
-        write!(out, "{real_time_factor:.1} × real time, {deadline_misses} deadlines missed, {log_gaps} reports dropped")
+        let Self { real_time_factor, deadline_misses, log_gaps, kept_time, .. } = self;
+        write!(
+            out,
+            "{real_time_factor:.1} × real time, {deadline_misses} deadlines missed, {log_gaps} reports dropped"
+        )?;
+        kept_time.map_or(Ok(()), |kept_time| write!(out, "\nthe controller's {kept_time}"))
     }
 }

@@ -10,7 +10,7 @@
 
 use std::time::Duration;
 
-use runtime::{Period, Rate, now_ns};
+use runtime::{Period, Rate, Wake, now_ns};
 use wire::{Newest, NewestReader};
 
 use crate::interrupt::Interrupt;
@@ -68,6 +68,8 @@ pub struct Turn<M> {
     pub dt: f64,
     /// How many deadlines were missed since the last turn.
     pub missed: u64,
+    /// How long after its deadline it began [ns]; 0 in lockstep.
+    pub late_ns: u64,
     /// How many were missed since the last turn that came in time.
     pub missed_in_a_row: u64,
     /// The other side's newest message; in lockstep the one of this tick.
@@ -131,20 +133,20 @@ impl<M: Newest> Turns<M> {
                 first
             }
             (Clock::Realtime, Some(period)) => {
-                let missed = period.wait().missed;
+                let Wake { missed, late_ns } = period.wait();
                 self.missed_in_a_row = if missed > 0 { self.missed_in_a_row + missed } else { 0 };
                 let periods = 1 + missed.min(MADE_UP_MAX);
                 self.next_tick += periods;
                 let tick = self.next_tick - 1;
                 let message = self.reader.newest().filter(|_| !self.is_over_at(tick));
-                Ok(message.map(|message| self.turn(tick, periods, missed, message)))
+                Ok(message.map(|message| Turn { missed, late_ns, ..self.turn(tick, periods, message) }))
             }
         }
     }
 
-    fn turn(&self, tick: u64, periods: u64, missed: u64, message: M) -> Turn<M> {
+    fn turn(&self, tick: u64, periods: u64, message: M) -> Turn<M> {
         let dt = periods as f64 * self.pace.rate.period_s();
-        Turn { tick, periods, dt, missed, missed_in_a_row: self.missed_in_a_row, message }
+        Turn { tick, periods, dt, missed: 0, late_ns: 0, missed_in_a_row: self.missed_in_a_row, message }
     }
 
     fn is_over(&self) -> bool {
@@ -163,7 +165,7 @@ impl<M: Newest> Turns<M> {
             let heard = self.reader.newest();
             if let Some(message) = heard.filter(|heard| self.pace.clock == Clock::Realtime || heard.tick() == wanted) {
                 self.next_tick += 1;
-                return Ok(Some(self.turn(wanted, 1, 0, message)));
+                return Ok(Some(self.turn(wanted, 1, message)));
             }
             if self.interrupt.is_raised() {
                 return Ok(None);

@@ -1,6 +1,7 @@
 //! `halfstep bench`: how fast it is on this machine, beside others in the same run.
 
-use std::path::PathBuf;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
@@ -19,6 +20,7 @@ use crate::configuration::{ConfigOptions, Errors, Robot};
 use crate::failure::{Failure, Outcome};
 use crate::in_command::{self, InCommandOptions};
 use crate::realtime::RealtimeParameters;
+use crate::watched::{WatchedOptions, watched};
 
 /// Measure speed, latency and jitter beside others in the same run
 #[derive(Clone, Debug, clap::Args)]
@@ -57,7 +59,7 @@ enum What {
         #[arg(long, value_name = "N", default_value_t = 20)]
         requests: u32,
     },
-    /// How late the loop wakes up, beside cyclictest or a bare loop
+    /// How late the loop wakes up, beside cyclictest or a bare loop; the controller, watched and left alone
     Jitter {
         /// How often all loops take turns
         #[arg(long, value_name = "N", default_value_t = 12)]
@@ -160,19 +162,31 @@ impl Bench {
     }
 
     fn jitter(&self, segments: u32, segment: Duration) -> Result<Findings, Failure> {
-        let mut errors = Errors::default();
-        let realtime = self.config.realtime(&mut errors);
-        let realtime = errors.finish(realtime)?;
+        let Loaded { robot, plant: parameters, realtime, .. } = self.load()?;
         let [busy, core] = cores(&realtime)?;
         let spin = if realtime.spin.is_zero() { SPIN } else { realtime.spin };
-        Ok(jitter(&JitterOptions {
+        let mut findings = jitter(&JitterOptions {
             segments,
             segment,
             period: realtime.rate.period(),
             spin,
             scheduling: Scheduling { core: Some(core), ..realtime.controller },
             busy_core: (busy != core).then_some(busy),
-        })?)
+        })?;
+
+        let options = WatchedOptions { rate: realtime.rate, segments, segment };
+        let instance = own_instance("watched")?.with_rate_hz(realtime.rate.hz());
+        let controller = |folder: Option<&Path>| {
+            let mut command = self.controller(&instance)?;
+            command.args(folder.into_iter().flat_map(|folder| [OsStr::new("--out"), folder.as_os_str()]));
+            Ok(command)
+        };
+        let start = robot.nominal.at(0.0);
+        let new_plant = || Plant::new(&robot.mechanism, &parameters, &start, realtime.rate.period_s(), 1);
+        let (series, ratios) = apart(|| watched(&options, &instance, controller, &robot.mechanism, new_plant))??;
+        findings.series.extend(series);
+        findings.ratios.extend(ratios);
+        Ok(findings)
     }
 
     fn load(&self) -> Result<Loaded, Failure> {
@@ -193,17 +207,19 @@ impl Bench {
         let instance = own_instance("controller")?.with_rate_hz(realtime.rate.hz());
         let _leftovers = instance.leftovers();
         let cannot = |error| Failure::new(format!("cannot start the controller: {error}"));
-        let child = Command::new(std::env::current_exe().map_err(cannot)?)
-            .arg("controller")
-            .args(self.config.arguments())
-            .args(["--instance", instance.name().as_str(), "--parent", &std::process::id().to_string()])
-            .args(options)
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .spawn()
-            .map_err(cannot)?;
-        let _ended = Ended(child);
+        let command = self.controller(&instance);
+        let child =
+            command.and_then(|mut command| command.args(options).stdin(Stdio::null()).stdout(Stdio::null()).spawn());
+        let _ended = Ended(child.map_err(cannot)?);
         Ok(apart(|| work(&instance))??)
+    }
+
+    /// A controller of its own, yet to be started.
+    fn controller(&self, instance: &Instance) -> std::io::Result<Command> {
+        let mut command = Command::new(std::env::current_exe()?);
+        command.arg("controller").args(self.config.arguments());
+        command.args(["--instance", instance.name().as_str(), "--parent", &std::process::id().to_string()]);
+        Ok(command)
     }
 }
 

@@ -17,7 +17,7 @@ use crate::realtime;
 use crate::record;
 use crate::run_controller::run_controller;
 use crate::summary::ControllerSummary;
-use crate::turns::Turns;
+use crate::turns::{Clock, Turns};
 
 /// Run the controller alone: it waits for its plant, then walks until it is asked otherwise
 #[derive(Clone, Debug, clap::Args)]
@@ -78,6 +78,7 @@ impl Controller {
             mode: run.mode.map_or(String::new(), |mode| crate::exchange::report::mode(mode).text().to_owned()),
             requests,
             deadline_misses: run.missed,
+            kept_time: (clock == Clock::Realtime).then_some(run.kept_time),
             log_gaps,
         };
         print(json, &summary)?;

@@ -207,6 +207,7 @@ impl Walk {
             instance: instance.name().to_string(),
             clock: self.runs.clock().text(),
             deadline_misses: controller.deadline_misses + plant.deadline_misses,
+            kept_time: controller.kept_time,
             log_gaps: controller.log_gaps + plant.log_gaps,
             real_time_factor: if plant.wall_s > 0.0 { duration_s / plant.wall_s } else { 0.0 },
         };
