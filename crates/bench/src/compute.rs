@@ -230,10 +230,10 @@ impl Work<'static> {
     }
 }
 
-/// Different in every joint, so that nothing is a special case.
+/// Different in every joint, so that nothing is a special case; the ground pushes.
 fn motion() -> Motion {
     let spread = |size: f64| PerJoint::from_fn(|joint| size * (f64::from(joint.number()) * 0.7).sin());
-    Motion { angles: spread(0.5), rates: spread(2.0), accelerations: spread(10.0) }
+    Motion { angles: spread(0.5), rates: spread(2.0), accelerations: spread(-10.0) }
 }
 
 fn setpoint(report: &TickReport) -> Setpoint {
