@@ -38,8 +38,9 @@ impl Composite {
         let rotation = &kinematics.rotation[joint];
         let com = kinematics.origin[joint] + rotation * body.com;
         let about_com = rotation * Matrix3::from_diagonal(&body.inertia) * rotation.transpose();
-        let cross = com.cross_matrix();
-        Self { mass: body.mass, first: body.mass * com, second: about_com - body.mass * cross * cross }
+        let first = body.mass * com;
+        let about_origin = Matrix3::from_diagonal_element(first.dot(&com)) - first * com.transpose();
+        Self { mass: body.mass, first, second: about_com + about_origin }
     }
 
     /// Mass times a field: momentum of velocities, the wrench of accelerations.
