@@ -3,6 +3,7 @@
 use model::{Joint, Wrench};
 use nalgebra::{Matrix3, Vector3};
 
+use crate::twist::Twist;
 use crate::{Kinematics, Tree};
 
 /// Mass, first and second moment of rigid bodies that move as one, in world axes about the common origin.
@@ -14,14 +15,6 @@ pub(crate) struct Composite {
     pub first: Vector3<f64>,
     /// Rotational inertia [kg·m²].
     pub second: Matrix3<f64>,
-}
-
-/// A field of velocities or accelerations `linear + angular × x`, as a rigid body has it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Twist {
-    pub angular: Vector3<f64>,
-    /// At the common origin.
-    pub linear: Vector3<f64>,
 }
 
 impl Composite {

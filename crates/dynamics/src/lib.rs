@@ -22,6 +22,7 @@ mod sin_cos;
 mod support_polygon;
 mod time_scaling;
 mod tree;
+mod twist;
 mod upper_body;
 mod zmp;
 mod zmp_jacobian;

@@ -3,7 +3,8 @@
 use model::{Joint, PerJoint};
 use nalgebra::SMatrix;
 
-use crate::composite::{Composite, Twist};
+use crate::composite::Composite;
+use crate::twist::Twist;
 use crate::{Kinematics, Tree};
 
 /// Joint torques per joint acceleration [kg·m²], in the order of [`Joint::ALL`].

@@ -1,28 +1,33 @@
 //! How the zero-moment point changes with each joint's angle, rate and acceleration, in closed form.
 //!
 //! A mass point x beyond a joint moves with the joint's angle by `∂x/∂q = S(x) = axis × (x − origin)`. Whether time or
-//! angle is differentiated by first does not matter, so (a bar over x: less gravity)
+//! angle is differentiated by first does not matter, so (ẍ less gravity, as everywhere)
 //!
 //! ```text
 //! ∂ẍ/∂q̈ = S(x)        ∂ẍ/∂q̇ = 2·d/dt S(x) = 2·(Ṡ(x) + axis × ẋ)
 //!                     ∂ẍ/∂q = d²/dt² S(x) = S̈(x) + 2·axis′ × ẋ + axis × ẍ
 //! ```
 //!
-//! where Ṡ and S̈ come from how the parent carries the joint. Each is a rigid field plus one that turns the points' own
-//! motion, so the sums over the mass points beyond the joint need nothing but their mass and its moments
-//! ([`Composite`]), their momentum `Σ mẋ` with `Σ mẋxᵀ`, and the wrench that they need. The angle besides moves the points
-//! at which their forces act: with `axis × ẍ` it turns the whole wrench about the axis. As all is told about one common
-//! origin, one pass from the tips in gives the three columns of every joint. In spatial algebra these are the base's rows of
-//! Carpentier and Mansard, "Analytical derivatives of rigid body dynamics algorithms", RSS 2018.
+//! where Ṡ and S̈ come from how the parent carries the joint. Summed over the mass points beyond the joint, each is
+//!
+//! * a rigid field of accelerations: needs their mass and its moments ([`Composite`]),
+//! * their velocities, turned: needs their momentum `Σ mẋ` and `Σ mẋxᵀ` ([`Subtree`]),
+//! * their accelerations, turned; as the angle also moves the points where forces act, this turns the wrench that they need.
+//!
+//! All is told about one common origin, so one pass from the tips in gives the three columns of every joint. In spatial
+//! algebra: Carpentier and Mansard, "Analytical derivatives of rigid body dynamics algorithms", RSS 2018, for the wrench of the
+//! base alone.
 
 use model::{Joint, Motion, PerJoint, Wrench};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
-use crate::composite::{Composite, Twist};
+use crate::composite::Composite;
 use crate::newton_euler::LinkMotion;
+use crate::twist::Twist;
 use crate::{NewtonEuler, Tree, zmp};
 
-/// The zero-moment point's derivatives and their intermediates.
+/// The zero-moment point's derivatives and their intermediates. Times the joints' rates, accelerations and jerks they add up
+/// to the point's velocity.
 #[derive(Clone, Debug)]
 pub struct ZmpJacobian {
     /// Filled first: the motion's wrenches.
@@ -49,10 +54,10 @@ struct Subtree {
     sweep: Matrix3<f64>,
 }
 
-/// Maps the change of a wrench to that of its zero-moment point.
+/// Maps the change of a wrench to that of its zero-moment point: the horizontal moment about the point per vertical force.
 struct Shift {
     zmp: Vector2<f64>,
-    per_weight: f64,
+    per_force: f64,
 }
 
 impl Default for ZmpJacobian {
@@ -77,7 +82,7 @@ impl ZmpJacobian {
         self.newton_euler.stand(tree, motion);
         let ground = &self.newton_euler.ground;
         let zmp = zmp(ground)?;
-        let shift = Shift { zmp, per_weight: 1.0 / ground.force.z };
+        let shift = Shift { zmp, per_force: 1.0 / ground.force.z };
         self.outward(tree);
         self.inward(tree, &shift);
         Some(zmp)
@@ -186,22 +191,10 @@ impl std::ops::Add for Subtree {
     }
 }
 
-impl Twist {
-    /// How a wrench changes that is carried along.
-    #[inline(always)]
-    fn turn(&self, wrench: &Wrench) -> Wrench {
-        Wrench {
-            force: self.angular.cross(&wrench.force),
-            moment: self.angular.cross(&wrench.moment) + self.linear.cross(&wrench.force),
-        }
-    }
-}
-
 impl Shift {
-    /// Of x = −My/Fz and y = Mx/Fz.
     #[inline(always)]
     fn of(&self, change: &Wrench) -> Vector2<f64> {
         let Wrench { force, moment } = change;
-        Vector2::new(-moment.y - self.zmp.x * force.z, moment.x - self.zmp.y * force.z) * self.per_weight
+        Vector2::new(-moment.y - self.zmp.x * force.z, moment.x - self.zmp.y * force.z) * self.per_force
     }
 }

@@ -159,5 +159,7 @@ fn there_is_none_where_the_ground_would_have_to_pull() {
         assert_eq!(found.is_none(), jacobian.newton_euler.ground.force.z <= 0.0);
         pulls += usize::from(found.is_none());
     }
+    let unknown = Motion { angles: JointVector::unit(Joint::WaistRoll) * f64::NAN, ..Motion::default() };
+    assert_eq!(jacobian.stand(&tree, &unknown), None);
     assert!(pulls > 10, "{pulls} of 100 motions lift the robot: the case was hardly seen");
 }
