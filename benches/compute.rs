@@ -9,7 +9,8 @@ use std::path::Path;
 use balance::{GroundSplit, LeanAt, PaperLean, zmp_by_speed_law};
 use criterion::{Criterion, criterion_group, criterion_main};
 use dynamics::{
-    ArticulatedBody, Batch, Kinematics, LANES, Leg, LegSolver, NewtonEuler, Tree, mass_matrix, solve_leg, zmp,
+    ArticulatedBody, Batch, Kinematics, LANES, Leg, LegSolver, NewtonEuler, Tree, ZmpJacobian, mass_matrix, solve_leg,
+    zmp,
 };
 use gait::{NominalRow, NominalTable, at_speed};
 use model::{JointVector, Mechanism, Motion, PerJoint, Side};
@@ -26,10 +27,10 @@ fn nominal() -> NominalTable {
     NominalTable::read_csv(&file).expect("the committed nominal loads")
 }
 
-/// Different in every joint, so that nothing is a special case.
+/// Different in every joint, so that nothing is a special case; the ground pushes.
 fn motion() -> Motion {
     let spread = |size: f64| PerJoint::from_fn(|joint| size * (f64::from(joint.number()) * 0.7).sin());
-    Motion { angles: spread(0.5), rates: spread(2.0), accelerations: spread(10.0) }
+    Motion { angles: spread(0.5), rates: spread(2.0), accelerations: spread(-10.0) }
 }
 
 fn dynamics(criterion: &mut Criterion) {
@@ -53,6 +54,10 @@ fn dynamics(criterion: &mut Criterion) {
             batch.compute(&tree);
             std::array::from_fn::<_, LANES, _>(|lane| zmp(&batch.ground(lane)))
         });
+    });
+    group.bench_function("zmp_jacobian", |bencher| {
+        let mut jacobian = ZmpJacobian::default();
+        bencher.iter(|| jacobian.stand(&tree, black_box(&motion)).expect("the ground pushes"));
     });
     group.bench_function("kinematics_and_com", |bencher| {
         let mut kinematics = Kinematics::default();

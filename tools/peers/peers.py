@@ -29,6 +29,8 @@ LIBRARIES = ["pinocchio_default", "boost_serialization", "boost_filesystem"]
 RATIOS = [
     ("Newton–Euler and ZMP, one configuration", "rnea", 0.35),
     ("Newton–Euler and ZMP, of eight at once", "rnea", 0.05),
+    ("ZMP Jacobian by the joints", "rnea_derivatives", 0.25),
+    ("ZMP for another speed, from the table's split", "rnea", 0.02),
     ("forward dynamics, floating base", "aba", 0.5),
     ("controller tick, walking", "rnea", 2.0),
     ("plant, a control period on both soles", "mujoco_step", 0.5),
@@ -76,11 +78,11 @@ def main():
         for name, nanoseconds in [*ours(halfstep), *lines(run([peer, *robots])), *theirs(python, mjcf)]:
             least[name] = min(nanoseconds, least.get(name, float("inf")))
 
-    print(f"{'':40} {'ns':>10}   {'beside':>12} {'ns':>10} {'ratio':>7} {'asked':>7}")
+    print(f"{'':46} {'ns':>10}   {'beside':>16} {'ns':>10} {'ratio':>7} {'asked':>7}")
     for mine, beside, asked in RATIOS:
         if mine in least:
             ratio = least[mine] / least[beside]
-            print(f"{mine:40} {least[mine]:10.0f}   {beside:>12} {least[beside]:10.0f} {ratio:7.3f} {asked:7.2f}")
+            print(f"{mine:46} {least[mine]:10.0f}   {beside:>16} {least[beside]:10.0f} {ratio:7.3f} {asked:7.2f}")
 
 
 def run(command, **options):

@@ -7,10 +7,10 @@ use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Duration;
 
-use balance::Preview;
+use balance::{GroundSplit, Preview};
 use controller::{Asked, Controller, Lasting, Measurement, Source, TickReport};
-use dynamics::{ArticulatedBody, Batch, LANES, NewtonEuler, Tree, zmp};
-use gait::{NominalTable, Start, Walk};
+use dynamics::{ArticulatedBody, Batch, LANES, NewtonEuler, Tree, ZmpJacobian, zmp};
+use gait::{NominalRow, NominalTable, Start, Walk};
 use model::{JointVector, Mechanism, Motion, PerJoint};
 use nalgebra::{Isometry3, Vector3};
 use plant::{Plant, Setpoint};
@@ -103,6 +103,18 @@ fn works(options: &ComputeOptions) -> Result<Vec<Work<'static>>, BenchError> {
             black_box(std::array::from_fn::<_, LANES, _>(|lane| zmp(&batch.ground(lane))));
         }
     };
+    let (of_tree, mut jacobian) = (tree.clone(), ZmpJacobian::default());
+    let zmp_jacobian = move || {
+        black_box(jacobian.stand(&of_tree, black_box(&motion)));
+        black_box(&jacobian);
+    };
+    let of_row = |row: &NominalRow| GroundSplit { gravity: row.ground_gravity, dynamic: row.ground_dynamic };
+    let (splits, mut row): (Vec<_>, _) = (nominal.rows.iter().map(of_row).collect(), 0);
+    // One instant per call.
+    let another_speed = move || {
+        row = (row + 1) % splits.len();
+        black_box(splits[row].zmp(black_box(1.2)));
+    };
     let mut body = ArticulatedBody::default();
     let forward_dynamics = move || {
         let motion = black_box(&motion);
@@ -134,6 +146,8 @@ fn works(options: &ComputeOptions) -> Result<Vec<Work<'static>>, BenchError> {
     Ok(vec![
         Work::batched("Newton–Euler and ZMP, one configuration", newton_euler),
         Work::batched("Newton–Euler and ZMP, of eight at once", eight_at_once),
+        Work::batched("ZMP Jacobian by the joints", zmp_jacobian),
+        Work::batched("ZMP for another speed, from the table's split", another_speed),
         Work::batched("forward dynamics, floating base", forward_dynamics),
         Work::batched("plant, a control period on both soles", plant_period),
         tick,
@@ -230,10 +244,10 @@ impl Work<'static> {
     }
 }
 
-/// Different in every joint, so that nothing is a special case.
+/// Different in every joint, so that nothing is a special case; the ground pushes.
 fn motion() -> Motion {
     let spread = |size: f64| PerJoint::from_fn(|joint| size * (f64::from(joint.number()) * 0.7).sin());
-    Motion { angles: spread(0.5), rates: spread(2.0), accelerations: spread(10.0) }
+    Motion { angles: spread(0.5), rates: spread(2.0), accelerations: spread(-10.0) }
 }
 
 fn setpoint(report: &TickReport) -> Setpoint {

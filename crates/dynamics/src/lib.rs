@@ -9,6 +9,7 @@
 mod articulated_body;
 mod atan2;
 mod batch;
+mod composite;
 mod energy;
 mod inverse_kinematics;
 mod kinematics;
@@ -21,8 +22,10 @@ mod sin_cos;
 mod support_polygon;
 mod time_scaling;
 mod tree;
+mod twist;
 mod upper_body;
 mod zmp;
+mod zmp_jacobian;
 
 pub use articulated_body::{Accelerations, ArticulatedBody, LinkLoad};
 pub use atan2::atan2;
@@ -40,3 +43,4 @@ pub use time_scaling::{wrench_at_speed, zmp_at_speed};
 pub use tree::Tree;
 pub use upper_body::UpperBody;
 pub use zmp::zmp;
+pub use zmp_jacobian::ZmpJacobian;

@@ -12,9 +12,9 @@ pub struct NewtonEuler {
     /// Filled first: where every link is.
     pub kinematics: Kinematics,
     /// Filled by the outward pass: how every link moves.
-    links: PerJoint<LinkMotion>,
+    pub(crate) links: PerJoint<LinkMotion>,
     /// Wrench that each link with all beyond it needs from its parent, about the common origin.
-    needs: PerJoint<Wrench>,
+    pub(crate) needs: PerJoint<Wrench>,
     /// Joint torques [N·m].
     pub torques: JointVector,
     /// Wrench of the ground on the robot: about O in support axes, or about the right sole for the floating robot.
@@ -23,13 +23,13 @@ pub struct NewtonEuler {
 
 /// How a link moves, told at its origin in world axes.
 #[derive(Clone, Copy, Debug, Default)]
-struct LinkMotion {
+pub(crate) struct LinkMotion {
     /// [rad/s]
-    angular_rate: Vector3<f64>,
+    pub angular_rate: Vector3<f64>,
     /// [rad/s²]
-    angular_acceleration: Vector3<f64>,
+    pub angular_acceleration: Vector3<f64>,
     /// Of the link's origin, less gravity [m/s²].
-    acceleration: Vector3<f64>,
+    pub acceleration: Vector3<f64>,
 }
 
 /// How the right sole of a floating robot moves, in world axes.

@@ -28,11 +28,13 @@ impl Wrench {
     pub const ZERO: Wrench = Wrench { force: Vector3::new(0.0, 0.0, 0.0), moment: Vector3::new(0.0, 0.0, 0.0) };
 
     /// The wrench of a force that acts at a point.
+    #[inline]
     pub fn at_point(force: Vector3<f64>, point: Vector3<f64>) -> Self {
         Self { force, moment: point.cross(&force) }
     }
 
     /// The same wrench about another origin, which lies at `origin` as seen from the present one.
+    #[inline]
     pub fn about(&self, origin: Vector3<f64>) -> Self {
         Self { force: self.force, moment: self.moment - origin.cross(&self.force) }
     }
@@ -54,6 +56,7 @@ impl Wrench {
 impl std::ops::Add for Wrench {
     type Output = Wrench;
 
+    #[inline]
     fn add(self, other: Wrench) -> Wrench {
         Wrench { force: self.force + other.force, moment: self.moment + other.moment }
     }
@@ -62,6 +65,7 @@ impl std::ops::Add for Wrench {
 impl std::ops::Sub for Wrench {
     type Output = Wrench;
 
+    #[inline]
     fn sub(self, other: Wrench) -> Wrench {
         Wrench { force: self.force - other.force, moment: self.moment - other.moment }
     }
@@ -70,6 +74,7 @@ impl std::ops::Sub for Wrench {
 impl std::ops::Mul<f64> for Wrench {
     type Output = Wrench;
 
+    #[inline]
     fn mul(self, factor: f64) -> Wrench {
         Wrench { force: self.force * factor, moment: self.moment * factor }
     }

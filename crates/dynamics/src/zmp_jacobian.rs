@@ -1,0 +1,200 @@
+//! How the zero-moment point changes with each joint's angle, rate and acceleration, in closed form.
+//!
+//! A mass point x beyond a joint moves with the joint's angle by `∂x/∂q = S(x) = axis × (x − origin)`. Whether time or
+//! angle is differentiated by first does not matter, so (ẍ less gravity, as everywhere)
+//!
+//! ```text
+//! ∂ẍ/∂q̈ = S(x)        ∂ẍ/∂q̇ = 2·d/dt S(x) = 2·(Ṡ(x) + axis × ẋ)
+//!                     ∂ẍ/∂q = d²/dt² S(x) = S̈(x) + 2·axis′ × ẋ + axis × ẍ
+//! ```
+//!
+//! where Ṡ and S̈ come from how the parent carries the joint. Summed over the mass points beyond the joint, each is
+//!
+//! * a rigid field of accelerations: needs their mass and its moments ([`Composite`]),
+//! * their velocities, turned: needs their momentum `Σ mẋ` and `Σ mẋxᵀ` ([`Subtree`]),
+//! * their accelerations, turned; as the angle also moves the points where forces act, this turns the wrench that they need.
+//!
+//! All is told about one common origin, so one pass from the tips in gives the three columns of every joint. In spatial
+//! algebra: Carpentier and Mansard, "Analytical derivatives of rigid body dynamics algorithms", RSS 2018, for the wrench of the
+//! base alone.
+
+use model::{Joint, Motion, PerJoint, Wrench};
+use nalgebra::{Matrix3, Vector2, Vector3};
+
+use crate::composite::Composite;
+use crate::newton_euler::LinkMotion;
+use crate::twist::Twist;
+use crate::{NewtonEuler, Tree, zmp};
+
+/// The zero-moment point's derivatives and their intermediates. Times the joints' rates, accelerations and jerks they add up
+/// to the point's velocity.
+#[derive(Clone, Debug)]
+pub struct ZmpJacobian {
+    /// Filled first: the motion's wrenches.
+    pub newton_euler: NewtonEuler,
+    /// Filled outward: velocity of each joint's origin [m/s].
+    velocity: PerJoint<Vector3<f64>>,
+    /// Filled outward with each link, inward with all beyond it.
+    subtrees: PerJoint<Subtree>,
+    /// By each joint's angle [m/rad].
+    pub by_angle: PerJoint<Vector2<f64>>,
+    /// By each joint's rate [m·s/rad].
+    pub by_rate: PerJoint<Vector2<f64>>,
+    /// By each joint's acceleration [m·s²/rad].
+    pub by_acceleration: PerJoint<Vector2<f64>>,
+}
+
+/// What links weigh together and how they move, about the common origin.
+#[derive(Clone, Copy, Debug)]
+struct Subtree {
+    composite: Composite,
+    /// `Σ mẋ` [kg·m/s].
+    momentum: Vector3<f64>,
+    /// `tr(Σ mẋxᵀ) − Σ mẋxᵀ`: maps a to `Σ m·x × (a × ẋ)` [kg·m²/s].
+    sweep: Matrix3<f64>,
+}
+
+/// Maps the change of a wrench to that of its zero-moment point: the horizontal moment about the point per vertical force.
+struct Shift {
+    zmp: Vector2<f64>,
+    per_force: f64,
+}
+
+impl Default for ZmpJacobian {
+    fn default() -> Self {
+        let none = PerJoint([Vector2::zeros(); Joint::COUNT]);
+        Self {
+            newton_euler: NewtonEuler::default(),
+            velocity: PerJoint([Vector3::zeros(); Joint::COUNT]),
+            subtrees: PerJoint([Subtree::NONE; Joint::COUNT]),
+            by_angle: none,
+            by_rate: none,
+            by_acceleration: none,
+        }
+    }
+}
+
+impl ZmpJacobian {
+    /// Of a motion with the right sole held at O. Gives the zero-moment point itself [m].
+    ///
+    /// `None` when the ground does not push ([`zmp`]): the derivatives are then those of an earlier motion.
+    pub fn stand(&mut self, tree: &Tree, motion: &Motion) -> Option<Vector2<f64>> {
+        self.newton_euler.stand(tree, motion);
+        let ground = &self.newton_euler.ground;
+        let zmp = zmp(ground)?;
+        let shift = Shift { zmp, per_force: 1.0 / ground.force.z };
+        self.outward(tree);
+        self.inward(tree, &shift);
+        Some(zmp)
+    }
+
+    /// From the ground out: what each link by itself weighs, and how it moves.
+    #[inline(always)]
+    fn outward(&mut self, tree: &Tree) {
+        let NewtonEuler { kinematics, links, .. } = &self.newton_euler;
+        for joint in Joint::ALL {
+            let node = &tree.nodes[joint];
+            self.velocity[joint] = match (node.parent, node.origin) {
+                (Some(parent), Some(_)) => {
+                    let arm = kinematics.origin[joint] - kinematics.origin[parent];
+                    self.velocity[parent] + links[parent].angular_rate.cross(&arm)
+                }
+                (Some(parent), None) => self.velocity[parent],
+                (None, _) => Vector3::zeros(),
+            };
+            self.subtrees[joint] = if node.body.is_some() {
+                let angular = links[joint].angular_rate;
+                let linear = self.velocity[joint] - angular.cross(&kinematics.origin[joint]);
+                Subtree::new(Composite::of_link(tree, kinematics, joint), &Twist { angular, linear })
+            } else {
+                Subtree::NONE
+            };
+        }
+    }
+
+    /// From the tips in: what everything beyond a joint makes of the joint's angle, rate and acceleration.
+    #[inline(always)]
+    fn inward(&mut self, tree: &Tree, shift: &Shift) {
+        let NewtonEuler { kinematics, links, needs, .. } = &self.newton_euler;
+        for joint in Joint::ALL.into_iter().rev() {
+            let subtree = self.subtrees[joint];
+            let parent = tree.nodes[joint].parent;
+            let carried = match parent {
+                Some(parent) => {
+                    self.subtrees[parent] = self.subtrees[parent] + subtree;
+                    links[parent]
+                }
+                None => LinkMotion::default(),
+            };
+
+            // The joint's field S, how fast the parent turns and moves it, and how this changes.
+            let (origin, axis) = (kinematics.origin[joint], kinematics.axis[joint]);
+            let (velocity, acceleration) = (self.velocity[joint], links[joint].acceleration);
+            let axis_rate = carried.angular_rate.cross(&axis);
+            let axis_acceleration = carried.angular_acceleration.cross(&axis) + carried.angular_rate.cross(&axis_rate);
+            let field = Twist { angular: axis, linear: origin.cross(&axis) };
+            let field_rate = Twist { angular: axis_rate, linear: velocity.cross(&axis) + origin.cross(&axis_rate) };
+            let field_acceleration = Twist {
+                angular: axis_acceleration,
+                linear: acceleration.cross(&axis) + 2.0 * velocity.cross(&axis_rate) + origin.cross(&axis_acceleration),
+            };
+
+            let Subtree { composite, .. } = &subtree;
+            let by_rate = composite.times(&field_rate) + subtree.swept(&axis);
+            let by_angle =
+                composite.times(&field_acceleration) + subtree.swept(&axis_rate) * 2.0 + field.turn(&needs[joint]);
+            self.by_acceleration[joint] = shift.of(&composite.times(&field));
+            self.by_rate[joint] = shift.of(&by_rate) * 2.0;
+            self.by_angle[joint] = shift.of(&by_angle);
+        }
+    }
+}
+
+impl Subtree {
+    const NONE: Subtree = Subtree {
+        composite: Composite::ZERO,
+        momentum: Vector3::new(0.0, 0.0, 0.0),
+        sweep: Matrix3::new(0., 0., 0., 0., 0., 0., 0., 0., 0.),
+    };
+
+    /// One body: with `ẋ = linear + angular × x` the sum of `mẋxᵀ` is `linear·firstᵀ + [angular]·Σ mxxᵀ`.
+    #[inline(always)]
+    fn new(composite: Composite, velocity: &Twist) -> Self {
+        let Twist { angular, linear } = velocity;
+        let Composite { mass, first, second } = &composite;
+        let spread = Matrix3::from_diagonal_element(0.5 * second.trace()) - second;
+        let moved = linear * first.transpose() + angular.cross_matrix() * spread;
+        Self {
+            momentum: *mass * linear + angular.cross(first),
+            sweep: Matrix3::from_diagonal_element(linear.dot(first)) - moved,
+            composite,
+        }
+    }
+
+    /// The wrench that accelerates each point by `turning × ẋ`.
+    #[inline(always)]
+    fn swept(&self, turning: &Vector3<f64>) -> Wrench {
+        Wrench { force: turning.cross(&self.momentum), moment: self.sweep * turning }
+    }
+}
+
+impl std::ops::Add for Subtree {
+    type Output = Subtree;
+
+    #[inline(always)]
+    fn add(self, other: Subtree) -> Subtree {
+        Subtree {
+            composite: self.composite + other.composite,
+            momentum: self.momentum + other.momentum,
+            sweep: self.sweep + other.sweep,
+        }
+    }
+}
+
+impl Shift {
+    #[inline(always)]
+    fn of(&self, change: &Wrench) -> Vector2<f64> {
+        let Wrench { force, moment } = change;
+        Vector2::new(-moment.y - self.zmp.x * force.z, moment.x - self.zmp.y * force.z) * self.per_force
+    }
+}
