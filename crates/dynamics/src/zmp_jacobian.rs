@@ -1,7 +1,7 @@
 //! How the zero-moment point changes with each joint's angle, rate and acceleration, in closed form.
 //!
 //! A mass point x beyond a joint moves with the joint's angle by `∂x/∂q = S(x) = axis × (x − origin)`. Whether time or
-//! angle is differentiated by first does not matter, so (ẍ less gravity, as everywhere)
+//! angle is differentiated by first does not matter, so
 //!
 //! ```text
 //! ∂ẍ/∂q̈ = S(x)        ∂ẍ/∂q̇ = 2·d/dt S(x) = 2·(Ṡ(x) + axis × ẋ)
@@ -18,7 +18,7 @@
 //! algebra: Carpentier and Mansard, "Analytical derivatives of rigid body dynamics algorithms", RSS 2018, for the wrench of the
 //! base alone.
 
-use model::{Joint, Motion, PerJoint, Wrench};
+use model::{GRAVITY, Joint, Motion, PerJoint, Wrench};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use crate::composite::Composite;
@@ -80,12 +80,25 @@ impl ZmpJacobian {
     /// `None` when the ground does not push ([`zmp`]): the derivatives are then those of an earlier motion.
     pub fn stand(&mut self, tree: &Tree, motion: &Motion) -> Option<Vector2<f64>> {
         self.newton_euler.stand(tree, motion);
-        let ground = &self.newton_euler.ground;
-        let zmp = zmp(ground)?;
-        let shift = Shift { zmp, per_force: 1.0 / ground.force.z };
-        self.outward(tree);
-        self.inward(tree, &shift);
+        let ground = self.newton_euler.ground;
+        let zmp = zmp(&ground)?;
+        self.differentiate(tree, &Shift { zmp, per_force: 1.0 / ground.force.z });
         Some(zmp)
+    }
+
+    /// As [`ZmpJacobian::stand`], of the ground's moment about O beside the robot's weight, (−My, Mx)/(M·g) [m]: zero where
+    /// the zero-moment point is O, linear in the wrench, and told of any motion. Gives this quotient itself.
+    pub fn moment_per_weight(&mut self, tree: &Tree, motion: &Motion) -> Vector2<f64> {
+        self.newton_euler.stand(tree, motion);
+        let shift = Shift { zmp: Vector2::zeros(), per_force: 1.0 / (tree.mass * GRAVITY) };
+        self.differentiate(tree, &shift);
+        shift.of(&self.newton_euler.ground)
+    }
+
+    #[inline(always)]
+    fn differentiate(&mut self, tree: &Tree, shift: &Shift) {
+        self.outward(tree);
+        self.inward(tree, shift);
     }
 
     /// From the ground out: what each link by itself weighs, and how it moves.

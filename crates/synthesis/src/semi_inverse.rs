@@ -4,8 +4,8 @@
 //! Each trunk joint is a quintic spline. Gauss–Newton drives the moments at all collocation points to zero in the least
 //! squares sense; that the end mirrors the start, in angle and rate, is linear in the coefficients and holds exactly.
 
-use dynamics::{NewtonEuler, Tree};
-use model::{GRAVITY, Joint, Mirror, Motion};
+use dynamics::{Tree, ZmpJacobian};
+use model::{Joint, Mirror, Motion};
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use crate::SynthesisError;
@@ -20,8 +20,6 @@ const COEFFICIENTS: usize = 32;
 const ITERATIONS_MAX: usize = 30;
 /// Largest change of a coefficient at which the fit counts as settled [rad].
 const SETTLED: f64 = 1e-11;
-/// Half of the span of central differences [rad, rad/s, rad/s²].
-const DIFFERENCE: f64 = 1e-4;
 
 /// The trunk's motion, as found.
 #[derive(Clone, Debug)]
@@ -54,7 +52,7 @@ pub fn balance_trunk(tree: &Tree, mirror: &Mirror, points: &[(Jet, Motion)]) -> 
     let unknowns = TRUNK.len() * COEFFICIENTS;
     let ends = end_conditions(&basis, mirror);
     let mut trunk = TrunkMotion { basis, coefficients: vec![0.0; unknowns], iterations: 0 };
-    let mut newton_euler = NewtonEuler::default();
+    let mut moments = ZmpJacobian::default();
     let mut change = f64::INFINITY;
 
     while trunk.iterations < ITERATIONS_MAX {
@@ -65,8 +63,8 @@ pub fn balance_trunk(tree: &Tree, mirror: &Mirror, points: &[(Jet, Motion)]) -> 
         for (progress, motion) in points {
             let mut motion = *motion;
             trunk.apply(*progress, &mut motion);
-            let offset = ground_moment(&mut newton_euler, tree, &motion);
-            let slopes = offset_slopes(&mut newton_euler, tree, &motion, &basis, *progress);
+            let offset = moments.moment_per_weight(tree, &motion);
+            let slopes = slopes_by_coefficient(&moments, &basis, *progress);
             for &(row, slope) in &slopes {
                 right[row] -= slope.dot(&offset);
                 for &(column, other) in &slopes {
@@ -111,38 +109,17 @@ fn end_conditions(basis: &SplineBasis, mirror: &Mirror) -> DMatrix<f64> {
     conditions
 }
 
-/// The ground's moment about O around x and y, per weight: with the sides exchanged, the ZMP's distance from O [m].
-fn ground_moment(newton_euler: &mut NewtonEuler, tree: &Tree, motion: &Motion) -> Vector2<f64> {
-    newton_euler.stand(tree, motion);
-    newton_euler.ground.moment.xy() / (tree.mass * GRAVITY)
-}
-
-/// How the ground moment changes with each spline coefficient that matters at one instant.
-fn offset_slopes(
-    newton_euler: &mut NewtonEuler,
-    tree: &Tree,
-    motion: &Motion,
-    basis: &SplineBasis,
-    progress: Jet,
-) -> Vec<(usize, Vector2<f64>)> {
-    let mut slope = |change: &dyn Fn(&mut Motion, f64)| {
-        let mut moment_at = |difference| {
-            let mut changed = *motion;
-            change(&mut changed, difference);
-            ground_moment(newton_euler, tree, &changed)
-        };
-        (moment_at(DIFFERENCE) - moment_at(-DIFFERENCE)) / (2.0 * DIFFERENCE)
-    };
-    let mut slopes = Vec::new();
+/// How the ground's moment per weight changes with each spline coefficient that matters at one instant.
+fn slopes_by_coefficient(moments: &ZmpJacobian, basis: &SplineBasis, progress: Jet) -> Vec<(usize, Vector2<f64>)> {
+    let (range, functions) = basis.at(progress);
+    let mut by_coefficient = Vec::new();
     for (position, joint) in TRUNK.into_iter().enumerate() {
-        let by_angle = slope(&|motion, difference| motion.angles[joint] += difference);
-        let by_rate = slope(&|motion, difference| motion.rates[joint] += difference);
-        let by_acceleration = slope(&|motion, difference| motion.accelerations[joint] += difference);
-        let (range, functions) = basis.at(progress);
-        for (column, function) in range.zip(functions) {
-            let slope = by_angle * function.value + by_rate * function.rate + by_acceleration * function.acceleration;
-            slopes.push((position * COEFFICIENTS + column, slope));
+        for (column, function) in range.clone().zip(&functions) {
+            let slope = moments.by_angle[joint] * function.value
+                + moments.by_rate[joint] * function.rate
+                + moments.by_acceleration[joint] * function.acceleration;
+            by_coefficient.push((position * COEFFICIENTS + column, slope));
         }
     }
-    slopes
+    by_coefficient
 }
