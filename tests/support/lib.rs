@@ -8,6 +8,7 @@ pub mod paper;
 pub mod pushing;
 #[cfg(feature = "command-line")]
 mod python_side;
+pub mod replaying;
 pub mod sequence;
 pub mod walking;
 

@@ -5,6 +5,8 @@
 //! a table and ends with exit code 1 if something that must not happen happened.
 
 #[cfg(feature = "mujoco")]
+mod accuracy;
+#[cfg(feature = "mujoco")]
 mod agreement;
 mod asked;
 mod cores;
@@ -58,6 +60,9 @@ enum Survey {
     /// Random scenarios, half of them hard, in our plant and in MuJoCo: whether both fall or walk, and how near their ZMP is
     #[cfg(feature = "mujoco")]
     Agreement(agreement::Options),
+    /// What larger integration steps err and cost, in our plant and in MuJoCo
+    #[cfg(feature = "mujoco")]
+    Accuracy(accuracy::Options),
 }
 
 fn main() -> ExitCode {
@@ -74,6 +79,8 @@ fn main() -> ExitCode {
         Survey::Mujoco(options) => mujoco::survey(options),
         #[cfg(feature = "mujoco")]
         Survey::Agreement(options) => agreement::survey(options),
+        #[cfg(feature = "mujoco")]
+        Survey::Accuracy(options) => accuracy::survey(options),
     };
     if passed { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }

@@ -6,7 +6,7 @@ use halfstep::engine::{self, OutsideEngine, Setup};
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::{PERIOD, Walking, controller_parameters, nominal, plant_parameters};
 use model::{Mechanism, Motion};
-use plant::{Disturbances, Measurement, Plant, Setpoint};
+use plant::{Disturbances, Measurement, Plant, RobotState, Setpoint};
 
 use crate::asked::request;
 use crate::cores::on_all_cores;
@@ -60,7 +60,12 @@ impl Outside {
         start: &Motion,
         seed: u64,
     ) -> Self {
-        let setup = Setup::new(mechanism, parameters, disturbances, start, seed, PERIOD).expect("an even floor");
+        let robot = RobotState::on_right_foot(start, 0.0);
+        Self::take_over(Setup::new(mechanism, parameters, disturbances, &robot, seed, PERIOD).expect("an even floor"))
+    }
+
+    /// MuJoCo with the robot that it is told.
+    pub fn take_over(setup: Setup) -> Self {
         let python = engine::mujoco().unwrap_or_else(|failure| panic!("{failure}"));
         Self { engine: OutsideEngine::start(python, &setup).unwrap_or_else(|error| panic!("{error}")) }
     }

@@ -102,6 +102,11 @@ impl Plant {
         self.periods as f64 * self.period
     }
 
+    /// Integrates each control period in so many steps from now on.
+    pub fn set_steps_per_period(&mut self, count: u32) {
+        self.parameters.steps_per_period = count;
+    }
+
     /// Pushes the trunk from now on.
     ///
     /// * `impulse` – in world axes [N·s]

@@ -62,7 +62,8 @@ impl Plant {
         let mut outside = match self.engine {
             Engine::Rust => None,
             Engine::Mujoco => {
-                let setup = Setup::new(&robot.mechanism, &parameters, &disturbances, &start, self.seed, period)
+                let stands = plant::RobotState::on_right_foot(&start, 0.0);
+                let setup = Setup::new(&robot.mechanism, &parameters, &disturbances, &stands, self.seed, period)
                     .map_err(Failure::new)?;
                 Some(OutsideEngine::start(engine::mujoco()?, &setup).map_err(Failure::new)?)
             }

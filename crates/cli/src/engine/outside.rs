@@ -4,7 +4,7 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::os::unix::process::CommandExt;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
-use model::{Joint, Mechanism, Motion};
+use model::{Joint, Mechanism};
 use plant::{Disturbances, Measurement, Parameters, Plant, RobotState, Setpoint, with_mass_error};
 use serde::{Deserialize, Serialize};
 
@@ -108,7 +108,7 @@ pub enum EngineError {
 }
 
 impl Setup {
-    /// The robot as the plant's parameters, start and seed make it.
+    /// The robot as the plant's parameters and seed make it, in the state in which it begins.
     ///
     /// # Errors
     /// [`EngineError::Uneven`].
@@ -116,7 +116,7 @@ impl Setup {
         mechanism: &Mechanism,
         parameters: &Parameters,
         disturbances: &Disturbances,
-        start: &Motion,
+        start: &RobotState,
         seed: u64,
         period: f64,
     ) -> Result<Self, EngineError> {
@@ -125,8 +125,7 @@ impl Setup {
         }
         let built = with_mass_error(mechanism, parameters.mass_error, seed);
         let motors = || Joint::ALL.into_iter().filter_map(|joint| Some((joint, mechanism.links[joint].motor?)));
-        let robot = RobotState::on_right_foot(start, 0.0);
-        let orientation = robot.sole_to_world.rotation;
+        let orientation = start.sole_to_world.rotation;
         Ok(Self {
             protocol: PROTOCOL,
             mjcf: mjcf_text(&built, parameters, period),
@@ -137,12 +136,12 @@ impl Setup {
             damping: motors().map(|(joint, _)| parameters.servo[joint].damping).collect(),
             back_emf: motors().map(|(_, motor)| motor.back_emf_damping()).collect(),
             start: Start {
-                position: robot.sole_to_world.translation.vector.into(),
+                position: start.sole_to_world.translation.vector.into(),
                 orientation: [orientation.w, orientation.i, orientation.j, orientation.k],
-                angular_rate: robot.angular_rate.into(),
-                velocity: robot.velocity.into(),
-                angles: robot.angles.0,
-                rates: robot.rates.0,
+                angular_rate: start.angular_rate.into(),
+                velocity: start.velocity.into(),
+                angles: start.angles.0,
+                rates: start.rates.0,
             },
             pushes: disturbances
                 .pushes
