@@ -3,7 +3,7 @@
 //! * Normal: `F_n = k·depth − d·v_z`, never pulling.
 //! * Tangential: a bristle with spring and damper, held until it would exceed `μ·F_n`; then it slides along and keeps the
 //!   deflection that the cone allows (Cundall and Strack 1979). Unlike a friction that needs speed it lets a loaded sole
-//!   stand still.
+//!   stand still. Only slip bends a bristle: what its damper adds may hit the cone, but bends nothing.
 //!
 //! All forces are those at the *end* of the integration step, linearised: see [`LinkLoad::added_inertia`].
 
@@ -101,8 +101,7 @@ impl FootContact {
             let limit = parameters.friction * normal;
             let sticks = held.norm_squared() <= limit * limit;
             let tangential = if sticks { held } else { held * (limit / held.norm()) };
-            // Sliding keeps the deflection that the cone allows.
-            corner.bristle = if sticks { bent } else { -tangential / parameters.stiffness_tangential };
+            corner.bristle = bent.cap_magnitude(limit / parameters.stiffness_tangential);
 
             let force = Vector3::new(tangential.x, tangential.y, normal);
             self.load.wrench = self.load.wrench + Wrench::at_point(force, arm);
