@@ -60,7 +60,7 @@ enum Survey {
     /// Random scenarios, half of them hard, in our plant and in MuJoCo: whether both fall or walk, and how near their ZMP is
     #[cfg(feature = "mujoco")]
     Agreement(agreement::Options),
-    /// What larger integration steps err and cost, in our plant and in MuJoCo
+    /// What larger integration steps err, in our plant and in MuJoCo
     #[cfg(feature = "mujoco")]
     Accuracy(accuracy::Options),
 }

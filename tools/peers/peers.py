@@ -13,6 +13,8 @@ import tempfile
 import tomllib
 from pathlib import Path
 
+import accuracy
+
 TOP = Path(__file__).resolve().parents[2]
 PACKAGES = ["pin==4.1.0", "cmeel-eigen", "mujoco==4.0.0"]
 # As Pinocchio's own CMake targets ask for.
@@ -34,6 +36,7 @@ RATIOS = [
     ("forward dynamics, floating base", "aba", 0.5),
     ("controller tick, walking", "rnea", 2.0),
     ("plant, a control period on both soles", "mujoco_step", 0.5),
+    ("plant, a control period of walking", "mujoco_walk", 0.5),
 ]
 
 # One simulated second of standing on both soles, in C.
@@ -65,17 +68,20 @@ def main():
 
     python = environment(options.environment)
     peer = pinocchio(options.environment, python)
-    run(["cargo", "build", "--release", "-q"], cwd=TOP)
+    run(["cargo", "build", "--release", "-q", "-p", "halfstep", "-p", "halfstep-survey"], cwd=TOP)
     halfstep = target() / "release/halfstep"
     mjcf = options.environment / "robot.xml"
     run([halfstep, "export", "mjcf", "--out", mjcf], cwd=TOP)
     robots = [options.environment / name for name in ("fixed.txt", "floating.txt")]
     write_robots(*robots)
+    print("walking in both engines", file=sys.stderr)
+    played = options.environment / "played.json"
+    errors = accuracy.measure(halfstep.with_name("survey"), TOP, played)
 
     least = {}
     for number in range(options.rounds):
         print(f"round {number + 1} of {options.rounds}", file=sys.stderr)
-        for name, nanoseconds in [*ours(halfstep), *lines(run([peer, *robots])), *theirs(python, mjcf)]:
+        for name, nanoseconds in [*ours(halfstep), *lines(run([peer, *robots])), *theirs(python, mjcf, played)]:
             least[name] = min(nanoseconds, least.get(name, float("inf")))
 
     print(f"{'':46} {'ns':>10}   {'beside':>16} {'ns':>10} {'ratio':>7} {'asked':>7}")
@@ -83,6 +89,9 @@ def main():
         if mine in least:
             ratio = least[mine] / least[beside]
             print(f"{mine:46} {least[mine]:10.0f}   {beside:>16} {least[beside]:10.0f} {ratio:7.3f} {asked:7.2f}")
+    print()
+    for line in accuracy.table(errors, TOP):
+        print(line)
 
 
 def run(command, **options):
@@ -148,9 +157,11 @@ def lines(text):
     return [(name, float(number)) for name, number in (line.split() for line in text.splitlines())]
 
 
-def theirs(python, mjcf):
-    """MuJoCo's step."""
-    return list(json.loads(run([python, "-c", MUJOCO, mjcf])).items())
+def theirs(python, mjcf, played):
+    """MuJoCo's step, standing and walking."""
+    walk = Path(__file__).with_name("mujoco_walk.py")
+    told = [run([python, *arguments]) for arguments in (["-c", MUJOCO, mjcf], [walk, played])]
+    return [pair for each in told for pair in json.loads(each).items()]
 
 
 if __name__ == "__main__":

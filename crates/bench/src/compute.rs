@@ -50,6 +50,8 @@ struct Work<'w> {
 
 /// Simulated time after which the walk begins anew [control periods].
 const WALK: u64 = 20_000;
+/// How much of it is timed together where a single period is too short [control periods].
+const PART: usize = 100;
 /// How much of the walk is not timed: caches, and the predictions of branches.
 const WARM_UP: u64 = 2000;
 
@@ -141,6 +143,7 @@ fn works(options: &ComputeOptions) -> Result<Vec<Work<'static>>, BenchError> {
         ))
     };
     let forecast = forecast_timed(begin()?, period);
+    let plant_walking = plant_walking_timed(begin()?, period, begin.clone());
     let tick = walk_timed(begin()?, period, begin);
 
     Ok(vec![
@@ -150,6 +153,7 @@ fn works(options: &ComputeOptions) -> Result<Vec<Work<'static>>, BenchError> {
         Work::batched("ZMP for another speed, from the table's split", another_speed),
         Work::batched("forward dynamics, floating base", forward_dynamics),
         Work::batched("plant, a control period on both soles", plant_period),
+        plant_walking,
         tick,
         Work::single("preview, plan of a half-step", plan),
         forecast,
@@ -205,6 +209,36 @@ fn walk_timed(
         (work.run)();
     }
     work
+}
+
+/// Parts of a walk: first with the controller, then the plant alone once more, to the same bits; only that counts.
+fn plant_walking_timed(
+    (mut controller, mut plant): (Controller, Plant),
+    period: f64,
+    begin: impl Fn() -> Result<(Controller, Plant), BenchError> + 'static,
+) -> Work<'static> {
+    let mut setpoints = [Setpoint::default(); PART];
+    let mut ticks = 0;
+    Work::new("plant, a control period of walking", 1, move || {
+        if ticks >= WALK
+            && let Ok(again) = begin()
+        {
+            (controller, plant) = again;
+            ticks = 0;
+        }
+        ticks += PART as u64;
+        let mut again = plant.clone();
+        let mut measured = plant.measure();
+        for played in &mut setpoints {
+            *played = setpoint(&controller.tick(period, Some(&sensed(&measured))));
+            measured = plant.step(played);
+        }
+        let began_ns = now_ns();
+        for played in &setpoints {
+            black_box(again.step(black_box(played)));
+        }
+        Some((now_ns() - began_ns) / PART as u64)
+    })
 }
 
 impl Work<'static> {

@@ -2,7 +2,7 @@
 //!
 //! [`Plant::step`] advances one control period in equal integration steps. Each step is linearly implicit: the stiff
 //! forces (contact springs and dampers, joint servos) are evaluated at its *end*, which costs no more than adding their
-//! stiffness to the articulated inertias and lets a stiff sole be integrated at a quarter of a millisecond. There is no
+//! stiffness to the articulated inertias and lets a stiff sole be integrated at half a millisecond. There is no
 //! clock here: whoever calls decides when.
 
 mod contact;

@@ -195,7 +195,7 @@ impl Default for Parameters {
         let legs_and_waist = ServoParameters { stiffness: 5000.0, damping: 150.0 };
         let arms = ServoParameters { stiffness: 500.0, damping: 15.0 };
         Self {
-            steps_per_period: 4,
+            steps_per_period: 2,
             mass_error: 0.0,
             slope: Slope::default(),
             unevenness: Unevenness::default(),
