@@ -1,7 +1,7 @@
 """MuJoCo's time for a step of 1 ms, walking: `python mujoco_walk.py PLAYED`, in an environment with MuJoCo.
 
 PLAYED is what `survey accuracy --played` writes: places of a walk in MuJoCo, and the setpoints that follow each. They are
-played in C, all together; the least of some turns counts.
+played in C; of each the least of some turns counts.
 """
 
 import json
@@ -28,15 +28,15 @@ def main():
     model, data = robots[0].model, mujoco.MjData(robots[0].model)
     assert model.opt.timestep == 0.001
 
+    least = np.full(len(played), np.inf)
     with rollout.Rollout(nthread=0) as player:
-        least = float("inf")
         for _ in range(TURNS):
-            begin = time.perf_counter()
-            ends, _ = player.rollout(model, data, states, controls)
-            least = min(least, time.perf_counter() - begin)
-    heights = ends[:, -1, 3]
-    assert np.all(np.abs(heights) < 0.2), f"a foot at a height of {heights} m: the robot does not walk"
-    print(json.dumps({"mujoco_walk": least / controls[:, :, 0].size * 1e9}))
+            for place in range(len(played)):
+                begin = time.perf_counter()
+                ends, _ = player.rollout(model, data, states[place], controls[place])
+                least[place] = min(least[place], time.perf_counter() - begin)
+                assert abs(ends[0, -1, 3]) < 0.2, f"a foot at a height of {ends[0, -1, 3]} m: the robot does not walk"
+    print(json.dumps({"mujoco_walk": least.mean() / controls.shape[1] * 1e9}))
 
 
 def state(robot):

@@ -89,24 +89,27 @@ impl FootContact {
             let velocity = linear + angular.cross(&arm);
             let place = base + arm;
             let depth = floor(place.xy()) - place.z;
-            let normal = parameters.stiffness * (depth - step * velocity.z) - parameters.damping * velocity.z;
-            if depth <= 0.0 || normal <= 0.0 {
+            let depth_at_end = depth - step * velocity.z;
+            let normal = parameters.stiffness * depth_at_end - parameters.damping * velocity.z;
+            if depth_at_end <= 0.0 || normal <= 0.0 {
                 corner.bristle = Vector3::zeros();
                 continue;
             }
+            // A corner that arrives within the step is on the ground for the rest of it only.
+            let share = if depth < 0.0 { depth_at_end / (depth_at_end - depth) } else { 1.0 };
 
             let slip = Vector3::new(velocity.x, velocity.y, 0.0);
-            let bent = corner.bristle + slip * step;
+            let bent = corner.bristle + slip * (share * step);
             let held = -(bent * parameters.stiffness_tangential + slip * parameters.damping_tangential);
             let limit = parameters.friction * normal;
             let sticks = held.norm_squared() <= limit * limit;
             let tangential = if sticks { held } else { held * (limit / held.norm()) };
             corner.bristle = bent.cap_magnitude(limit / parameters.stiffness_tangential);
 
-            let force = Vector3::new(tangential.x, tangential.y, normal);
+            let force = Vector3::new(tangential.x, tangential.y, normal) * share;
             self.load.wrench = self.load.wrench + Wrench::at_point(force, arm);
 
-            let implicit = |stiffness: f64, damping: f64| step * damping + step * step * stiffness;
+            let implicit = |stiffness: f64, damping: f64| share * (step * damping + step * step * stiffness);
             let yielding_normal = implicit(parameters.stiffness, parameters.damping);
             let yielding_tangential =
                 if sticks { implicit(parameters.stiffness_tangential, parameters.damping_tangential) } else { 0.0 };
