@@ -143,7 +143,8 @@ fn works(options: &ComputeOptions) -> Result<Vec<Work<'static>>, BenchError> {
         ))
     };
     let forecast = forecast_timed(begin()?, period);
-    let plant_walking = plant_walking_timed(begin()?, period, begin.clone());
+    let plant_walking = parts_timed("plant, a control period of walking", true, begin()?, period, begin.clone());
+    let both_walking = parts_timed("controller and plant, a control period", false, begin()?, period, begin.clone());
     let tick = walk_timed(begin()?, period, begin);
 
     Ok(vec![
@@ -155,6 +156,7 @@ fn works(options: &ComputeOptions) -> Result<Vec<Work<'static>>, BenchError> {
         Work::batched("plant, a control period on both soles", plant_period),
         plant_walking,
         tick,
+        both_walking,
         Work::single("preview, plan of a half-step", plan),
         forecast,
     ])
@@ -211,15 +213,17 @@ fn walk_timed(
     work
 }
 
-/// Parts of a walk: first with the controller, then the plant alone once more, to the same bits; only that counts.
-fn plant_walking_timed(
+/// Parts of a walk: with the controller, and the plant `alone` once more, to the same bits; only one of both counts.
+fn parts_timed(
+    name: &str,
+    alone: bool,
     (mut controller, mut plant): (Controller, Plant),
     period: f64,
     begin: impl Fn() -> Result<(Controller, Plant), BenchError> + 'static,
 ) -> Work<'static> {
     let mut setpoints = [Setpoint::default(); PART];
     let mut ticks = 0;
-    Work::new("plant, a control period of walking", 1, move || {
+    Work::new(name, 1, move || {
         if ticks >= WALK
             && let Ok(again) = begin()
         {
@@ -229,15 +233,17 @@ fn plant_walking_timed(
         ticks += PART as u64;
         let mut again = plant.clone();
         let mut measured = plant.measure();
+        let began_ns = now_ns();
         for played in &mut setpoints {
             *played = setpoint(&controller.tick(period, Some(&sensed(&measured))));
             measured = plant.step(played);
         }
-        let began_ns = now_ns();
+        let together_ns = now_ns();
         for played in &setpoints {
             black_box(again.step(black_box(played)));
         }
-        Some((now_ns() - began_ns) / PART as u64)
+        let took_ns = if alone { now_ns() - together_ns } else { together_ns - began_ns };
+        Some(took_ns / PART as u64)
     })
 }
 
