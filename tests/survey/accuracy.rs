@@ -11,7 +11,7 @@ use halfstep::engine::Setup;
 use halfstep_tests::mechanism;
 use halfstep_tests::replaying::{Apart, REFERENCE_STEPS, Reference};
 use halfstep_tests::walking::{PERIOD, controller_parameters, plant_parameters};
-use model::Mechanism;
+use model::{Joint, Mechanism};
 use plant::{Disturbances, Plant, RobotState, Setpoint};
 use serde_json::{Value, json};
 
@@ -106,7 +106,7 @@ fn setup(mechanism: &Mechanism, robot: &RobotState, steps: u32) -> Setup {
 
 /// For each place what an engine is told, and the setpoints that follow: rows of angles, rates and torques.
 fn played(mechanism: &Mechanism, walk: &Reference, starts: &[usize]) -> Value {
-    let rows = |start: usize| -> Vec<[[f64; 20]; 3]> {
+    let rows = |start: usize| -> Vec<[[f64; Joint::COUNT]; 3]> {
         let setpoints = walk.setpoints[start..start + PLAYED].iter();
         setpoints.map(|setpoint| [setpoint.angles.0, setpoint.rates.0, setpoint.feed_forward.0]).collect()
     };
