@@ -61,7 +61,7 @@ pub(crate) fn solve_leg_from(
     let mut residual = f64::INFINITY;
     for _ in 0..ITERATIONS_MAX {
         // What carries the leg stays where it is.
-        kinematics.chain(tree, angles, leg.joints().into_iter());
+        kinematics.chain(tree, angles, leg.joints()[0].index()..leg.end().index() + 1);
         let end = kinematics.link_to_world(leg.end());
         let miss = pose_difference(&end, target);
         residual = miss.amax();

@@ -1,5 +1,7 @@
 //! Where every link is.
 
+use std::ops::Range;
+
 use model::{Joint, JointVector, Mechanism, PerJoint, Side};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
@@ -37,23 +39,24 @@ impl Kinematics {
 
     /// The same as far as a link of the chain that leads from the right sole over the pelvis to the left sole; links beyond
     /// it are nowhere.
+    #[inline]
     pub fn standing_up_to(tree: &Tree, angles: &JointVector, link: Joint) -> Self {
         let mut kinematics = Self::default();
-        kinematics.chain(tree, angles, Joint::ALL.into_iter().take_while(|joint| joint.number() <= link.number()));
+        kinematics.chain(tree, angles, 0..link.index() + 1);
         kinematics
     }
 
     /// As [`Kinematics::standing`], in place.
     #[inline]
     pub fn stand(&mut self, tree: &Tree, angles: &JointVector) {
-        self.chain(tree, angles, Joint::ALL.into_iter());
+        self.chain(tree, angles, 0..Joint::COUNT);
     }
 
     /// The floating robot, whose right sole frame has the given pose.
     #[inline]
     pub fn float(&mut self, tree: &Tree, right_sole: &Isometry3<f64>, angles: &JointVector) {
         self.place(Mechanism::foot(Side::Right), right_sole);
-        self.chain(tree, angles, Tree::floating_joints());
+        self.chain(tree, angles, Joint::FIRST_POWERED.index()..Joint::COUNT);
     }
 
     /// Puts one link where it is told.
@@ -63,11 +66,11 @@ impl Kinematics {
         self.origin[link] = link_to_world.translation.vector;
     }
 
-    /// Places the links of `joints`, whose parents are placed already or among them.
+    /// Places the links of `joints`, told by their indices, whose parents are placed already or among them.
     #[inline(always)]
-    pub(crate) fn chain(&mut self, tree: &Tree, angles: &JointVector, joints: impl Iterator<Item = Joint>) {
-        let turned = SinCos::of(angles);
-        for joint in joints {
+    pub(crate) fn chain(&mut self, tree: &Tree, angles: &JointVector, joints: Range<usize>) {
+        let turned = SinCos::of(angles, joints.clone());
+        for &joint in &Joint::ALL[joints] {
             let node = &tree.nodes[joint];
             let (parent_rotation, parent_origin) = match node.parent {
                 Some(parent) => (self.rotation[parent], self.origin[parent]),

@@ -3,6 +3,8 @@
 //! The system's libm differs from version to version in the last bit and is called once per value. Here: Cody–Waite
 //! reduction to ±π/4 and the minimax polynomials of FreeBSD's msun (`k_sin.c`, `k_cos.c`); within 2.5·10⁻¹⁶ for |x| ≤ 10⁵, far beyond any joint.
 
+use std::ops::Range;
+
 use model::{Joint, JointVector};
 
 const TWO_OVER_PI: f64 = std::f64::consts::FRAC_2_PI;
@@ -48,7 +50,7 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
     (f64::from_bits(((s & !swap) | (c & swap)) ^ sine_sign), f64::from_bits(((c & !swap) | (s & swap)) ^ cosine_sign))
 }
 
-/// Sines and cosines of all joints, taken in one loop of vector code.
+/// Sines and cosines of some joints, taken in one loop of vector code.
 pub(crate) struct SinCos {
     sines: JointVector,
     cosines: JointVector,
@@ -56,9 +58,9 @@ pub(crate) struct SinCos {
 
 impl SinCos {
     #[inline(always)]
-    pub fn of(angles: &JointVector) -> Self {
+    pub fn of(angles: &JointVector, joints: Range<usize>) -> Self {
         let mut all = Self { sines: JointVector::ZERO, cosines: JointVector::ZERO };
-        for index in 0..Joint::COUNT {
+        for index in joints {
             (all.sines.0[index], all.cosines.0[index]) = sin_cos(angles.0[index]);
         }
         all

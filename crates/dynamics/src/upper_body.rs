@@ -25,7 +25,7 @@ impl UpperBody {
     pub fn new(tree: &Tree, angles: &JointVector) -> Self {
         let mut kinematics = Kinematics::default();
         kinematics.place(PELVIS, &Isometry3::identity());
-        kinematics.chain(tree, angles, Joint::ALL[LEGS..].iter().copied());
+        kinematics.chain(tree, angles, LEGS..Joint::COUNT);
         let (mass, moment) = kinematics.mass_and_moment(tree, Joint::ALL[LEGS..].iter().copied());
         Self { mass, moment }
     }
@@ -35,7 +35,7 @@ impl Kinematics {
     /// As [`Kinematics::stand`], but for the links of the upper body, which stay where they were.
     #[inline]
     pub fn stand_on_legs(&mut self, tree: &Tree, angles: &JointVector) {
-        self.chain(tree, angles, Joint::ALL[..LEGS].iter().copied());
+        self.chain(tree, angles, 0..LEGS);
     }
 
     /// Centre of mass of legs that were placed by [`Kinematics::stand_on_legs`] with the upper body on them [m].

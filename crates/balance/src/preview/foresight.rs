@@ -35,11 +35,11 @@ pub struct Foresight {
 /// A knot more is seen in parts, so that no tick does all of it.
 #[derive(Clone, Copy, Debug)]
 enum Stage {
-    /// Where the pendulum is.
+    /// How far half-step and pendulum are.
     Pendulum,
-    /// Where the feet are.
-    Feet,
-    /// The posture that does it; with the foot that bore at the knot before.
+    /// Where the feet are then; with the foot that bore at the knot before.
+    Feet(Footprint),
+    /// The posture that does it.
     Posture(Footprint),
     /// What the pendulum leaves out of the ZMP of the knot before: only then it has a neighbour on either side.
     Zmp(Footprint),
@@ -159,7 +159,7 @@ impl Foresight {
     pub fn keep_up(&mut self, biped: &Biped, share: f64) {
         let done = |stage| match stage {
             Stage::Pendulum => 0.15,
-            Stage::Feet => 0.3,
+            Stage::Feet(_) => 0.3,
             Stage::Posture(_) => 0.45,
             Stage::Zmp(_) => 0.6,
             Stage::Correction => 0.75,
@@ -193,24 +193,24 @@ impl Foresight {
 
     fn work(&mut self, biped: &Biped) {
         let [_, last, new] = self.last_three();
-        let footprint = self.footwork.course.feet.footprint;
         self.stage = match self.stage {
             Stage::Pendulum => {
                 let sum = self.outlook.weighed(&biped.pendulum);
                 let com = self.knots[last].com;
                 self.knots[new].com = [0, 1].map(|axis| biped.pendulum.advance(&com[axis], sum[axis]));
                 self.outlook.advance(biped);
-                Stage::Feet
-            }
-            Stage::Feet => {
+                let before = self.footwork.course.feet.footprint;
                 if self.footwork.advance(biped) {
                     self.body.swap(biped);
                 }
                 let Course { feet, .. } = &self.footwork.course;
-                self.knots[new].wanted = self.footwork.wanted(biped, place(&self.knots[new].com));
                 self.knots[new].expected =
                     feet.footprint.direction_to_walk(self.footwork.course.beyond_pendulum(biped));
-                Stage::Posture(footprint)
+                Stage::Feet(before)
+            }
+            Stage::Feet(before) => {
+                self.knots[new].wanted = self.footwork.wanted(biped, place(&self.knots[new].com));
+                Stage::Posture(before)
             }
             Stage::Posture(before) => {
                 let reached = self.body.reach(biped, &self.knots[new].wanted);
