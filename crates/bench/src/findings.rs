@@ -37,13 +37,13 @@ pub struct Ratio {
 }
 
 impl Ratio {
-    /// Of a quantile of two series.
+    /// Of a quantile of two series, see [`Series::times`].
     pub fn of(ours: &Series, theirs: &Series, quantile: f64, at_most: f64) -> Self {
         Self {
             of: ours.name.clone(),
             to: theirs.name.clone(),
             number: number(quantile),
-            ratio: ours.quantile(quantile) / theirs.quantile(quantile),
+            ratio: ours.times(theirs, quantile),
             at_most,
         }
     }

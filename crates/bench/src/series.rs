@@ -61,6 +61,16 @@ impl Series {
         self.full().map(|round| round.value_at_quantile(quantile) as f64 / PER_NS).collect()
     }
 
+    /// How many times as long as another this is: round by round where both took turns, since what disturbs the one disturbs
+    /// the other, and the median of that; the ratio of what counts where that is the least of all.
+    pub fn times(&self, other: &Self, quantile: f64) -> f64 {
+        let [ours, theirs] = [self, other].map(|series| series.quantile_of_rounds(quantile));
+        if self.over == Over::Minimum || ours.len() != theirs.len() {
+            return self.quantile(quantile) / other.quantile(quantile);
+        }
+        median(ours.iter().zip(theirs).map(|(ours, theirs)| ours / theirs).collect())
+    }
+
     /// The longest time of all [ns].
     pub fn max(&self) -> f64 {
         self.full().map(|round| round.max() as f64 / PER_NS).fold(f64::NAN, f64::max)
@@ -88,13 +98,20 @@ impl Series {
     }
 
     fn over_rounds(&self, of: impl Fn(&Histogram<u64>) -> f64) -> f64 {
-        let mut values: Vec<f64> = self.full().map(of).collect();
-        values.sort_by(f64::total_cmp);
-        match (self.over, values.len()) {
-            (_, 0) => f64::NAN,
-            (Over::Minimum, _) => values[0],
-            (Over::Median, count) => (values[(count - 1) / 2] + values[count / 2]) / 2.0,
+        let values: Vec<f64> = self.full().map(of).collect();
+        match self.over {
+            Over::Minimum => values.into_iter().fold(f64::NAN, f64::min),
+            Over::Median => median(values),
         }
+    }
+}
+
+/// The middle one, or between the two in the middle; NaN of nothing.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    match values.len() {
+        0 => f64::NAN,
+        count => (values[(count - 1) / 2] + values[count / 2]) / 2.0,
     }
 }
 
@@ -109,6 +126,21 @@ mod tests {
             (0..1000).for_each(|_| series.add(of_round));
         }
         series
+    }
+
+    /// In the second round the machine was busy with something else.
+    #[test]
+    fn what_disturbs_both_disturbs_no_ratio() {
+        let series = |rounds: [f64; 3]| {
+            let mut series = Series::new("group", "name", Over::Median);
+            for ns in rounds {
+                series.begin_round();
+                series.add(ns);
+            }
+            series
+        };
+        let ratio = series([10.0, 40.0, 44.0]).times(&series([10.0, 40.0, 11.0]), 0.5);
+        assert!((ratio - 1.0).abs() < 0.01, "{ratio}");
     }
 
     #[test]
