@@ -55,6 +55,15 @@ impl RealtimeParameters {
         document.finish(parameters)
     }
 
+    /// Keeps this thread, and those that it starts from now on, off the core of the controller's loop, if that has one to
+    /// itself: waking up takes longer where somebody else runs. The loops themselves see to their cores in [`enter`].
+    pub fn keep_off_the_loop(&self, clock: Clock) {
+        if let Some(core) = self.controller.core.filter(|_| clock == Clock::Realtime) {
+            // Where the system refuses, the loop is disturbed now and then.
+            let _ = runtime::keep_off(core);
+        }
+    }
+
     /// How a loop goes by a clock.
     pub fn pace(&self, clock: Clock) -> Pace {
         Pace { clock, rate: self.rate, spin: self.spin }

@@ -11,7 +11,7 @@ use std::time::Duration;
 use bench::{BenchError, Over, Ratio, Series};
 use model::Mechanism;
 use plant::Plant;
-use runtime::{Period, Rate};
+use runtime::{Period, Rate, keep_off};
 use wire::{Instance, ObserverEnd, OperatorEnd};
 
 use crate::in_command::{Robot, patiently};
@@ -23,6 +23,8 @@ use crate::summary::ControllerSummary;
 pub struct WatchedOptions {
     /// The loops' rate.
     pub rate: Rate,
+    /// The core of the controller's loop, if it has one.
+    pub loop_core: Option<usize>,
     /// How often both take turns.
     pub segments: u32,
     /// How long a turn lasts.
@@ -95,8 +97,10 @@ fn one(
     let over = AtomicBool::new(false);
     std::thread::scope(|threads| {
         if let Some(mut observer) = observer {
-            let over = &over;
+            let (over, core) = (&over, options.loop_core);
             threads.spawn(move || {
+                // As a person would who wants to hear and not to disturb.
+                let _ = core.map(keep_off);
                 while !over.load(Ordering::Relaxed) {
                     while let Ok(Some(report)) = observer.reports.next_report() {
                         std::hint::black_box(report);

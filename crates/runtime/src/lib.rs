@@ -11,5 +11,5 @@ mod system;
 pub use journal::{Journal, JournalEnd};
 pub use period::{Period, Wake, now_ns};
 pub use rate::Rate;
-pub use scheduling::{Granted, Refusal, Scheduling};
+pub use scheduling::{Granted, Refusal, Scheduling, keep_off};
 pub use system::Usage;

@@ -8,7 +8,7 @@ use std::hint::black_box;
 use std::io::{self, Write};
 
 use rustix::mm::{MlockAllFlags, mlockall};
-use rustix::thread::{CpuSet, sched_setaffinity};
+use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity};
 
 use crate::system::{keep_freed_memory, schedule_fifo};
 
@@ -109,6 +109,21 @@ impl fmt::Display for Refusal {
     }
 }
 
+/// Keeps the calling thread, and those that it starts, off a core; unless it may run nowhere else.
+///
+/// # Errors
+/// The system does not tell or change where threads run.
+pub fn keep_off(core: usize) -> io::Result<()> {
+    let mut cores = sched_getaffinity(None)?;
+    if core < CpuSet::MAX_CPU {
+        cores.unset(core);
+    }
+    if cores.count() > 0 {
+        sched_setaffinity(None, &cores)?;
+    }
+    Ok(())
+}
+
 fn pin(core: usize) -> io::Result<()> {
     if core >= CpuSet::MAX_CPU {
         return Err(io::ErrorKind::InvalidInput.into());
@@ -157,6 +172,20 @@ mod tests {
         for (loops, below) in [(Some(80), Some(78)), (Some(2), None), (Some(1), None), (None, None)] {
             assert_eq!(of_loop(loops).below(2), Scheduling { priority: below, ..Scheduling::default() });
         }
+    }
+
+    #[test]
+    fn helpers_keep_off_the_loops_core_where_there_are_others() {
+        let elsewhere = std::thread::spawn(|| {
+            let before = sched_getaffinity(None).unwrap();
+            let core = (0..CpuSet::MAX_CPU).find(|core| before.is_set(*core)).unwrap();
+            keep_off(core).unwrap();
+            let started_later = std::thread::spawn(|| sched_getaffinity(None).unwrap()).join().unwrap();
+            assert_eq!(started_later.is_set(core), before.count() == 1);
+            (0..CpuSet::MAX_CPU).for_each(|core| keep_off(core).unwrap());
+            assert_eq!(sched_getaffinity(None).unwrap().count(), 1, "one core is left");
+        });
+        elsewhere.join().unwrap();
     }
 
     #[test]

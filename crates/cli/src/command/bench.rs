@@ -174,7 +174,7 @@ impl Bench {
             busy_core: (busy != core).then_some(busy),
         })?;
 
-        let options = WatchedOptions { rate: realtime.rate, segments, segment };
+        let options = WatchedOptions { rate: realtime.rate, loop_core: realtime.controller.core, segments, segment };
         let instance = own_instance("watched")?.with_rate_hz(realtime.rate.hz());
         let controller = |folder: Option<&Path>| {
             let mut command = self.controller(&instance)?;

@@ -74,6 +74,7 @@ impl Plant {
             PlantEnd::connect(&self.instance.at_rate(realtime.rate)?, robot.mechanism.fingerprint)?;
         let clock = self.runs.clock();
         let to = self.recorded(realtime.rate, robot.mechanism.fingerprint)?;
+        realtime.keep_off_the_loop(clock);
         let (mut record, record_end) = record::of_plant(clock, realtime.rate, to)?;
         let ticks = self.runs.ticks(realtime.rate);
         let mut turns = Turns::new(realtime.pace(clock), setpoints, "controller", ticks, interrupt);
