@@ -51,13 +51,14 @@ impl Controller {
 
         let ControllerEnd { mut setpoints, measurements, requests, reports } =
             ControllerEnd::connect(&self.instance.at_rate(rate)?, fingerprint)?;
-        realtime.keep_off_the_loop(clock);
-        let (mut record, record_end) = record::of_controller(clock, rate, self.recorded(rate, fingerprint)?, reports)?;
         let mut turns = Turns::new(realtime.pace(clock), measurements, "plant", self.runs.ticks(rate), interrupt);
         let mut inbox = Inbox::new(Clerk::new(requests, clock, CAPACITY, realtime.controller.below(CLERK_BELOW))?);
         let mut advisor = Advisor::new(clock, realtime.controller.below(ADVISOR_BELOW));
+        // Who answers may run wherever there is room; who writes down has time.
+        realtime.keep_off_the_loop(clock);
+        let (mut record, record_end) = record::of_controller(clock, rate, self.recorded(rate, fingerprint)?, reports)?;
 
-        // Last: the other threads keep off the loop's core.
+        // Last: the other threads are not to keep to the loop's core.
         let _granted = realtime::enter(&realtime.controller, clock, "controller");
         let run = run_controller(
             &mut controller,
