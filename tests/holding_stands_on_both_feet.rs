@@ -22,7 +22,7 @@ fn from_any_moment_of_the_walk() {
         walking.tick(Some((&request, None)));
         walking.walk(4.0 + random.random_range(0.0..1.2));
 
-        let report = walking.tick(Some((&Request::default(), Some(intent))));
+        let report = walking.ask(Request::default(), Some(intent));
         let answer = report.answer.expect("a request is answered");
         assert_eq!((answer.admission.verdict, answer.intent), (Verdict::Accepted, intent));
         let stands_at = answer.admission.effect_half_step;

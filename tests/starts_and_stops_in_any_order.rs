@@ -19,3 +19,13 @@ fn without_a_fall_and_without_a_stuck_mode() {
     }
     assert!(all.stops > 10 && all.starts > 10 && all.changes > 20, "the sequences do what they should: {all:?}");
 }
+
+/// Stops from fast turns with long steps, asked for shortly before a swap, led to falls in these.
+#[test]
+fn nor_where_the_last_moment_before_a_swap_was_too_late() {
+    let limits = controller_parameters().gait.limits;
+    for seed in [541, 672, 1438] {
+        let played = sequence::play(&mut Walking::begin(seed), &mut random(seed), &limits, 15);
+        assert!(played.is_ok(), "seed {seed}: {played:?}");
+    }
+}

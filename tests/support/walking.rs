@@ -1,5 +1,6 @@
 //! Controller and plant walking together in one process, in lockstep.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use controller::{Asked, Controller, Intent, Lasting, Measurement, Mode, Source, TickReport};
@@ -11,6 +12,12 @@ use crate::repository;
 
 /// Control period of all walks [s].
 pub const PERIOD: f64 = 1e-3;
+
+/// Requests that can wait without an allocation.
+const WAITING: usize = 16;
+
+/// No answer takes so long [ticks].
+const ANSWERED_WITHIN: u32 = 1000;
 
 /// `config/nominal_half_step.csv`.
 pub fn nominal() -> Arc<NominalTable> {
@@ -37,6 +44,8 @@ pub struct Walking {
     pub plant: Plant,
     measured: Measurement,
     tick: u64,
+    /// Wait until those before are answered.
+    waiting: VecDeque<Asked>,
 }
 
 impl Walking {
@@ -69,7 +78,7 @@ impl Walking {
         let mut plant = Plant::new(mechanism, plant, &start, PERIOD, seed);
         let measured = sensed(&plant.measure());
         let controller = Controller::new(mechanism, table, controller, Start::default()).expect("the nominal walks");
-        Self { controller, plant, measured, tick: 0 }
+        Self { controller, plant, measured, tick: 0, waiting: VecDeque::with_capacity(WAITING) }
     }
 
     /// One period of both, with a single request of a person.
@@ -95,9 +104,11 @@ impl Walking {
         step: impl FnOnce(&mut Plant, &Setpoint) -> plant::Measurement,
     ) -> TickReport {
         self.settle();
-        if let Some(asked) = asked {
-            assert!(self.controller.is_free(), "one request per tick");
-            self.controller.ask(asked);
+        self.waiting.extend(asked);
+        if self.controller.is_free()
+            && let Some(asked) = self.waiting.pop_front()
+        {
+            self.controller.ask(&asked);
             self.settle();
         }
         let report = self.controller.tick(PERIOD, Some(&self.measured));
@@ -113,9 +124,16 @@ impl Walking {
         }
     }
 
-    /// One period in which something is requested.
+    /// Requests something: the report of the tick that answers, which is this one or, if it has to wait for a swap, one soon.
     pub fn ask(&mut self, request: Request, intent: Option<Intent>) -> TickReport {
-        self.tick(Some((&request, intent)))
+        let mut report = self.tick(Some((&request, intent)));
+        for _ in 0..ANSWERED_WITHIN {
+            if report.answer.is_some() {
+                break;
+            }
+            report = self.tick(None);
+        }
+        report
     }
 
     /// Whether the robot lies, or the controller believes so: `report` is the last tick's.

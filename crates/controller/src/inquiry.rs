@@ -13,6 +13,9 @@ use crate::Intent;
 const KNOTS: usize = 280;
 /// Halvings of the way from what is in force to what is asked, in search of what can be granted.
 const HALVINGS: usize = 4;
+/// What breaks a limit if it begins so shortly before a swap [s] is looked into again after it: the centre of mass has had its
+/// way to the next foot by then.
+const LATE: f64 = 0.2;
 /// By how much what is granted may have less margin than walking on as it is, where that breaks a limit itself [m].
 const NO_WORSE: f64 = 0.002;
 
@@ -67,9 +70,10 @@ impl Inquiry {
         self.stamp = preview.stamp();
     }
 
-    /// Finds out what can be granted, unless that is known, and what the walk will be then.
+    /// Finds out what can be granted, unless that is known, and what the walk will be then. It may have to wait for a swap;
+    /// then there is no ruling yet.
     pub fn settle(&mut self) {
-        let ruling = self.ruling.unwrap_or_else(|| self.rule());
+        let Some(ruling) = self.ruling.or_else(|| self.rule()) else { return };
         let index = self.preview.half_step().index;
         let admission = apply(&mut self.preview, &ruling.admission.granted.into(), self.intent);
         let stands = index + u64::from(self.preview.gate().swaps_to_goal());
@@ -87,15 +91,18 @@ impl Inquiry {
         self.intent
     }
 
-    fn rule(&mut self) -> Ruling {
+    fn rule(&mut self) -> Option<Ruling> {
         let in_force = self.preview.command();
         let request = self.request;
         let (admission, asked) = self.foresee(&request);
         let foreseen = |forecast: &Forecast| Some(forecast.margin).filter(|margin| margin.is_finite());
+        if asked.strain.is_some() && self.is_late() {
+            return None;
+        }
         // Coming to a stand is granted whatever it costs; and there is nothing to find in what breaks no limit.
         let is_stop = matches!(self.intent, Some(Intent::Stop | Intent::Hold));
         if admission.verdict == Verdict::Refused || asked.strain.is_none() || is_stop {
-            return Ruling { admission, strain: None, margin: foreseen(&asked) };
+            return Some(Ruling { admission, strain: None, margin: foreseen(&asked) });
         }
         let (_, unchanged) = self.foresee(&in_force.into());
         let is_fine = |forecast: &Forecast| match (forecast.strain, unchanged.strain) {
@@ -108,7 +115,7 @@ impl Inquiry {
             }
         };
         if is_fine(&asked) {
-            return Ruling { admission, strain: None, margin: foreseen(&asked) };
+            return Some(Ruling { admission, strain: None, margin: foreseen(&asked) });
         }
         let (mut best, mut best_share) = (unchanged, 0.0);
         let mut step = 0.5;
@@ -122,7 +129,14 @@ impl Inquiry {
         }
         let verdict = if best_share > 0.0 { Verdict::Limited } else { Verdict::Refused };
         let granted = between(&in_force, &admission.granted, best_share);
-        Ruling { admission: Admission { verdict, granted, ..admission }, strain: asked.strain, margin: foreseen(&best) }
+        let admission = Admission { verdict, granted, ..admission };
+        Some(Ruling { admission, strain: asked.strain, margin: foreseen(&best) })
+    }
+
+    /// Whether a half-step that is walked is about to end.
+    fn is_late(&self) -> bool {
+        let left = (1.0 - self.preview.half_step().progress) * self.preview.walk().table().duration;
+        self.preview.gate().walks() && left < LATE * self.preview.speed()
     }
 
     /// Plays on with a request.
