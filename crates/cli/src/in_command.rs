@@ -67,7 +67,8 @@ pub fn at_pace(
     let operator = patiently(|| OperatorEnd::connect(instance))?;
     let mut observer = patiently(|| ObserverEnd::connect(instance))?;
     let mut robot = Robot::connect(instance, mechanism, plant)?;
-    let _granted = options.scheduling.ask();
+    // An ordinary thread: who is awake before everybody else would starve the thread that tells what is seen here.
+    let _granted = Scheduling { priority: None, ..options.scheduling }.ask();
     let series = |name: &str| {
         let mut series = Series::new(format!("controller at {}", options.rate), name, Over::Median);
         series.begin_round();
