@@ -133,10 +133,11 @@ impl Inquiry {
         Some(Ruling { admission, strain: asked.strain, margin: foreseen(&best) })
     }
 
-    /// Whether a half-step that is walked is about to end.
+    /// Whether a half-step that is walked is about to end; never in its first half, so that nothing waits for ever.
     fn is_late(&self) -> bool {
-        let left = (1.0 - self.preview.half_step().progress) * self.preview.walk().table().duration;
-        self.preview.gate().walks() && left < LATE * self.preview.speed()
+        let left = 1.0 - self.preview.half_step().progress;
+        let late = LATE * self.preview.speed() / self.preview.walk().table().duration;
+        self.preview.gate().walks() && left < late.min(0.5)
     }
 
     /// Plays on with a request.
