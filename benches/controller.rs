@@ -1,15 +1,17 @@
 //! What a tick costs, and the planning of a half-step that ticks share.
 
+use interface::Measurement;
 use std::hint::black_box;
 use std::path::Path;
 use std::sync::Arc;
 
-use balance::Preview;
-use controller::{Controller, Measurement, Parameters};
+use config::Config;
+use controller::{Controller, Parameters};
 use criterion::{Criterion, criterion_group, criterion_main};
 use gait::{NominalTable, Start, Walk};
 use model::{Mechanism, Wrench};
 use nalgebra::{Quaternion, Vector3};
+use pattern::PatternGenerator;
 
 fn controller(criterion: &mut Criterion) {
     let config = Path::new(env!("CARGO_MANIFEST_DIR")).join("../config");
@@ -21,23 +23,24 @@ fn controller(criterion: &mut Criterion) {
 
     // Standing in for the robot: the middle of the half-step again and again, always new.
     let mut measurement = Measurement {
-        tick: 0,
+        sample: 0,
         angles: table.rows[30].motion.angles,
         rates: table.rows[30].motion.rates,
         feet: [Wrench { force: Vector3::new(0.0, 0.0, 716.0), moment: Vector3::zeros() }, Wrench::ZERO],
         orientation: Quaternion::identity(),
         angular_rate: Vector3::zeros(),
+        currents: model::JointVector::ZERO,
     };
     let mut walking = Controller::new(&mechanism, table.clone(), &parameters, Start::default()).expect("it walks");
     group.bench_function("tick", |bencher| {
         bencher.iter(|| {
-            measurement.tick += 1;
+            measurement.sample += 1;
             walking.tick(1e-3, Some(black_box(&measurement)))
         });
     });
 
     let walk = Walk::new(table, &mechanism, &parameters.gait, Start::default()).expect("it walks");
-    let mut preview = Preview::new(&mechanism, walk);
+    let mut preview = PatternGenerator::walking(&mechanism, walk);
     group.bench_function("preview_of_a_half_step", |bencher| bencher.iter(|| preview.advance(black_box(0.6))));
     group.finish();
 }

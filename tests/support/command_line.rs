@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
-use wire::{Instance, Leftovers, OperatorEnd};
+use wire::{Instance, Leftovers, OperatorPorts};
 
 /// Nothing here takes so long; whatever does hangs.
 const SAFETY: Duration = Duration::from_secs(60);
@@ -120,7 +120,7 @@ impl CommandLine {
     /// Waits until a controller of the instance takes requests.
     pub fn wait_for_controller(&self) {
         let began = Instant::now();
-        while let Err(error) = OperatorEnd::connect(&self.instance) {
+        while let Err(error) = OperatorPorts::connect(&self.instance) {
             assert!(began.elapsed() < SAFETY, "{error}");
             std::thread::sleep(GLANCE);
         }

@@ -17,6 +17,7 @@ use std::path::PathBuf;
 #[cfg(feature = "command-line")]
 pub use python_side::python;
 
+use config::Config;
 use model::{Joint, JointVector, Mechanism, Motion, PerJoint};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 

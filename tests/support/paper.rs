@@ -1,9 +1,11 @@
 //! The paper's figures on the committed robot.
 
+use config::Config;
 use std::path::PathBuf;
 
-use halfstep::configuration::{ConfigOptions, Errors, Robot};
-use halfstep::paper::{Figure, Reading, Scenario, reproduce};
+use gait::Robot;
+use node::configuration::{ConfigFiles, Errors};
+use paper::{Figure, Reading, Scenario, reproduce};
 
 use crate::repository;
 
@@ -15,20 +17,18 @@ pub fn config() -> PathBuf {
 /// The committed robot with its nominal.
 pub fn robot() -> Robot {
     let mut errors = Errors::default();
-    let robot = ConfigOptions { config: config(), mechanism: None, nominal: None }.robot(&mut errors);
+    let robot = ConfigFiles { folder: config(), mechanism: None, nominal: None }.robot(&mut errors);
     errors.finish(robot).expect("the committed robot loads")
 }
 
 /// `config/paper.toml`.
 pub fn reading() -> Reading {
-    Reading::load(&config().join("paper.toml")).expect("the committed reading loads")
+    Reading::load(config().join("paper.toml")).expect("the committed reading loads")
 }
 
 /// All of `config/scenarios`.
 pub fn scenarios() -> Vec<Scenario> {
-    let mut errors = Errors::default();
-    let scenarios = Scenario::load_all(&config().join("scenarios"), &mut errors);
-    errors.finish(Some(scenarios)).expect("the committed scenarios load")
+    Scenario::load_all(&config().join("scenarios")).expect("the committed scenarios load")
 }
 
 /// The scenario of a figure.

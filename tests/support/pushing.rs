@@ -1,15 +1,14 @@
 //! Pushes at a chosen place of the half-step, told from the robot itself.
 
-use controller::{Intent, Mode};
-use gait::Request;
+use interface::{GaitChange, Intent, Mode};
 use model::Side;
 use nalgebra::Vector3;
 
 use crate::walking::Walking;
 
-/// How long a push lasts [s].
+/// How long a push lasts (s).
 pub const PUSH_DURATION: f64 = 0.1;
-/// How long a robot must walk on to have survived [s].
+/// How long a robot must walk on to have survived (s).
 pub const WALKS_ON: f64 = 6.0;
 
 /// Whither the trunk is pushed.
@@ -45,7 +44,7 @@ impl Direction {
 }
 
 /// The walk by `request` at a progress of a half-step, long after its beginning; `None` if it falls before.
-pub fn walk_to(seed: u64, request: Request, half_step: u64, progress: f64) -> Option<Walking> {
+pub fn walk_to(seed: u64, request: GaitChange, half_step: u64, progress: f64) -> Option<Walking> {
     let mut walking = Walking::begin(seed);
     let report = walking.ask(request, Some(Intent::Walk));
     // The slowest half-step takes about as many seconds as its inverse speed.
@@ -53,16 +52,18 @@ pub fn walk_to(seed: u64, request: Request, half_step: u64, progress: f64) -> Op
     let there = |half_step_now: u64, progress_now: f64| {
         half_step_now > half_step || (half_step_now == half_step && progress_now >= progress)
     };
-    walking.walk_until(patience, |report| there(report.half_step.index, report.half_step.progress)).ok()?;
+    walking
+        .walk_until(patience, |report| there(report.report.half_step.index, report.report.half_step.progress))
+        .ok()?;
     Some(walking)
 }
 
 /// Whether a copy of `walking`, pushed now by an impulse of so many N·s, still walks [`WALKS_ON`] seconds later.
 pub fn survives(walking: &Walking, direction: Direction, impulse: f64) -> bool {
     let mut pushed = walking.clone();
-    let support = pushed.tick(None).half_step.support;
+    let support = pushed.tick(None).report.half_step.support;
     let push = direction.in_world(&pushed, support) * impulse;
     pushed.plant.push(push, PUSH_DURATION);
     let fallen = pushed.walk(WALKS_ON).has_fallen();
-    !fallen && pushed.tick(None).mode == Mode::Walking
+    !fallen && pushed.tick(None).report.mode == Mode::Walking
 }

@@ -4,8 +4,9 @@
 //! grows by a factor of e every 0.3 s: so parts are short.
 
 use dynamics::Tree;
+use interface::{Measurement, Setpoint};
 use model::{Joint, Mechanism};
-use plant::{Measurement, Plant, RobotState, SensorParameters, Setpoint};
+use plant::{Plant, RobotState, SensorParameters};
 
 use crate::walking::{Walking, controller_parameters, plant_parameters};
 
@@ -24,11 +25,11 @@ pub struct Reference {
 /// How far a robot is from where it should be: a mean square over many, or its root.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Apart {
-    /// The powered joints' angles [rad].
+    /// The powered joints' angles (rad).
     pub joints: f64,
-    /// Where the trunk is [m].
+    /// Where the trunk is (m).
     pub place: f64,
-    /// How the trunk is turned [rad].
+    /// How the trunk is turned (rad).
     pub turn: f64,
 }
 
@@ -39,7 +40,7 @@ impl Reference {
         periods: usize,
         mut step: impl FnMut(&mut Plant, &Setpoint) -> Measurement,
     ) -> Self {
-        let plant = plant::Parameters {
+        let plant = plant::PlantParameters {
             steps_per_period: REFERENCE_STEPS,
             sensors: SensorParameters::PERFECT,
             ..plant_parameters()
@@ -57,8 +58,8 @@ impl Reference {
         reference
     }
 
-    /// Plays control periods again from some `starts` by the plant that `begin` makes of the walk's, and tells how far it is
-    /// from the walk `after` so many: the root of the mean square over all starts.
+    /// Plays control periods again from some `starts` by the plant that `begin` makes of the walk's, and tells how far
+    /// it is from the walk `after` so many: the root of the mean square over all starts.
     pub fn apart<S: FnMut(&mut Plant, &Setpoint) -> Measurement, const N: usize>(
         &self,
         mechanism: &Mechanism,

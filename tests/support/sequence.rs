@@ -1,15 +1,16 @@
 //! Random sequences of what an operator may do: change the walk, stop it, hold it, start it again, take a stop back.
 
-use controller::{Intent, Mode, TickReport};
-use gait::{Limits, Request};
+use controller::Tick;
+use gait::Limits;
+use interface::{GaitChange, Intent, Mode};
 use rand::{Rng, rngs::StdRng};
 
 use crate::walking::Walking;
 
-/// Longest time from an intended stop to a stand [s]: the half-step that is on, a calm one at the slowest speed, and as
+/// Longest time from an intended stop to a stand (s): the half-step that is on, a calm one at the slowest speed, and as
 /// much again.
 pub const TO_STAND_MAX: f64 = 4.5;
-/// Longest time from an intended start to the next half-step [s]: the weight shifts, and a half-step is made.
+/// Longest time from an intended start to the next half-step (s): the weight shifts, and a half-step is made.
 pub const TO_WALK_MAX: f64 = 4.5;
 
 /// What a sequence did.
@@ -21,11 +22,11 @@ pub struct Tally {
     pub starts: u32,
     /// Changes of the walk while it walked, stopped or stood.
     pub changes: u32,
-    /// Longest time from the intention to a stand [s].
+    /// Longest time from the intention to a stand (s).
     pub slowest_stop: f64,
-    /// Longest time from the intention to the end of the first half-step [s].
+    /// Longest time from the intention to the end of the first half-step (s).
     pub slowest_start: f64,
-    /// Walked and stood time [s].
+    /// Walked and stood time (s).
     pub seconds: f64,
 }
 
@@ -34,7 +35,7 @@ pub struct Tally {
 pub struct Trouble {
     /// Whether the robot fell; otherwise a mode was stuck.
     pub fell: bool,
-    /// Since the beginning [s].
+    /// Since the beginning (s).
     pub time: f64,
     /// What was going on.
     pub what: String,
@@ -74,7 +75,7 @@ impl Sequence<'_> {
             6..8 => self.stop().map(|()| true),
             _ => {
                 let intent = self.any_stop();
-                self.ask(Request::default(), Some(intent), "a stop to be taken back")?;
+                self.ask(GaitChange::default(), Some(intent), "a stop to be taken back")?;
                 self.wait(0.0, 1.2, "stopping, to be taken back")?;
                 self.start().map(|()| false)
             }
@@ -97,10 +98,10 @@ impl Sequence<'_> {
 
     fn stop(&mut self) -> Result<(), Trouble> {
         let intent = self.any_stop();
-        self.ask(Request::default(), Some(intent), "a stop")?;
+        self.ask(GaitChange::default(), Some(intent), "a stop")?;
         let began = self.walking.time();
         self.until(TO_STAND_MAX, &format!("{intent:?}, not standing yet"), |report| {
-            matches!(report.mode, Mode::Standing | Mode::Holding)
+            matches!(report.report.mode, Mode::Standing | Mode::Holding)
         })?;
         self.tally.stops += 1;
         self.tally.slowest_stop = self.tally.slowest_stop.max(self.walking.time() - began);
@@ -110,12 +111,12 @@ impl Sequence<'_> {
     fn start(&mut self) -> Result<(), Trouble> {
         let in_place = self.random.random_range(0..4) == 0;
         let (intent, mode) = if in_place { (Intent::InPlace, Mode::InPlace) } else { (Intent::Walk, Mode::Walking) };
-        let report = self.ask(Request::default(), Some(intent), "a start")?;
-        let (began, stood_in) = (self.walking.time(), report.half_step.index);
+        let report = self.ask(GaitChange::default(), Some(intent), "a start")?;
+        let (began, stood_in) = (self.walking.time(), report.report.half_step.index);
         // A stop that was too late to take back ends in a stand first.
         let patience = TO_STAND_MAX + TO_WALK_MAX;
         self.until(patience, &format!("started to {intent:?}, not there yet"), |report| {
-            report.mode == mode && report.half_step.index > stood_in
+            report.report.mode == mode && report.report.half_step.index > stood_in
         })?;
         self.tally.starts += 1;
         self.tally.slowest_start = self.tally.slowest_start.max(self.walking.time() - began);
@@ -128,11 +129,11 @@ impl Sequence<'_> {
         let turn = self.random.random_range(-turn_max..=turn_max);
         let speed = self.random.random_range(speed_min..=speed_max);
         let extension = self.random.random_range(extension_min..=extension_max);
-        let all = Request { turn: Some(turn), speed: Some(speed), extension: Some(extension) };
+        let all = GaitChange { turn: Some(turn), speed: Some(speed), extension: Some(extension) };
         let request = match self.random.random_range(0..5) {
-            0 => Request { turn: all.turn, ..Request::default() },
-            1 | 2 => Request { speed: all.speed, ..Request::default() },
-            3 => Request { extension: all.extension, ..Request::default() },
+            0 => GaitChange { turn: all.turn, ..GaitChange::default() },
+            1 | 2 => GaitChange { speed: all.speed, ..GaitChange::default() },
+            3 => GaitChange { extension: all.extension, ..GaitChange::default() },
             _ => all,
         };
         let what = format!("asked for {request:.3?}");
@@ -145,7 +146,7 @@ impl Sequence<'_> {
         if self.random.random_range(0..2) == 0 { Intent::Stop } else { Intent::Hold }
     }
 
-    fn ask(&mut self, request: Request, intent: Option<Intent>, what: &str) -> Result<TickReport, Trouble> {
+    fn ask(&mut self, request: GaitChange, intent: Option<Intent>, what: &str) -> Result<Tick, Trouble> {
         let report = self.walking.ask(request, intent);
         if self.walking.has_fallen(&report) { Err(self.trouble(&report, what)) } else { Ok(report) }
     }
@@ -162,20 +163,20 @@ impl Sequence<'_> {
         Ok(())
     }
 
-    fn until(&mut self, seconds: f64, what: &str, reached: impl FnMut(&TickReport) -> bool) -> Result<(), Trouble> {
+    fn until(&mut self, seconds: f64, what: &str, reached: impl FnMut(&Tick) -> bool) -> Result<(), Trouble> {
         self.walking.walk_until(seconds, reached).map(drop).map_err(|report| self.trouble(&report, what))
     }
 
-    fn trouble(&self, report: &TickReport, what: &str) -> Trouble {
-        let gait::Command { turn, speed, extension } = report.command;
+    fn trouble(&self, report: &Tick, what: &str) -> Trouble {
+        let interface::Command { turn, speed, extension } = report.command;
         let (turn, extension) = (turn.to_degrees(), extension.to_degrees());
-        let place = report.half_step.index as f64 + report.half_step.progress;
+        let place = report.report.half_step.index as f64 + report.report.half_step.progress;
         Trouble {
             fell: self.walking.has_fallen(report),
             time: self.walking.time(),
             what: format!(
                 "{:?} in half-step {place:.2} by c {speed:.2} α {turn:.1}° β {extension:.1}°: {what}",
-                report.mode
+                report.report.mode
             ),
         }
     }

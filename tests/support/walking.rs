@@ -3,20 +3,22 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use controller::{Asked, Controller, Intent, Lasting, Measurement, Mode, Source, TickReport};
-use gait::{NominalTable, Request, Start, Walk};
+use config::Config;
+use controller::{Controller, Driver, InlineWorker, Tick};
+use gait::{NominalTable, Start, Walk};
+use interface::{GaitChange, Intent, Measurement, Mode, Request, Setpoint, Source};
 use model::Mechanism;
-use plant::{Plant, Setpoint, Truth};
+use plant::{Plant, Truth};
 
 use crate::repository;
 
-/// Control period of all walks [s].
+/// Control period of all walks (s).
 pub const PERIOD: f64 = 1e-3;
 
 /// Requests that can wait without an allocation.
 const WAITING: usize = 16;
 
-/// No answer takes so long [ticks].
+/// No answer takes so long (ticks).
 const ANSWERED_WITHIN: u32 = 1000;
 
 /// `config/nominal_half_step.csv`.
@@ -31,21 +33,21 @@ pub fn controller_parameters() -> controller::Parameters {
 }
 
 /// `config/plant.toml`.
-pub fn plant_parameters() -> plant::Parameters {
-    plant::Parameters::load(repository().join("config/plant.toml")).expect("the committed file loads")
+pub fn plant_parameters() -> plant::PlantParameters {
+    plant::PlantParameters::load(repository().join("config/plant.toml")).expect("the committed file loads")
 }
 
 /// A controller and a plant that walk together. A clone walks on by itself, to the same bits.
 #[derive(Clone, Debug)]
 pub struct Walking {
-    /// The one.
-    pub controller: Controller,
-    /// The other.
+    /// The controller with its worker.
+    pub driver: Driver<InlineWorker>,
+    /// The simulated robot.
     pub plant: Plant,
-    measured: Measurement,
+    measurement: Measurement,
     tick: u64,
-    /// Wait until those before are answered.
-    waiting: VecDeque<Asked>,
+    /// Requests that wait until those before are replied to.
+    waiting: VecDeque<Request>,
 }
 
 impl Walking {
@@ -58,7 +60,7 @@ impl Walking {
     pub fn begin_with(
         mechanism: &Mechanism,
         controller: &controller::Parameters,
-        plant: &plant::Parameters,
+        plant: &plant::PlantParameters,
         seed: u64,
     ) -> Self {
         Self::begin_by(mechanism, nominal(), controller, plant, seed)
@@ -69,66 +71,53 @@ impl Walking {
         mechanism: &Mechanism,
         table: Arc<NominalTable>,
         controller: &controller::Parameters,
-        plant: &plant::Parameters,
+        plant: &plant::PlantParameters,
         seed: u64,
     ) -> Self {
         let start = Walk::new(table.clone(), mechanism, &controller.gait, Start::default())
             .expect("the nominal walks")
             .physical_motion();
         let mut plant = Plant::new(mechanism, plant, &start, PERIOD, seed);
-        let measured = sensed(&plant.measure());
+        let measurement = plant.measure();
         let controller = Controller::new(mechanism, table, controller, Start::default()).expect("the nominal walks");
-        Self { controller, plant, measured, tick: 0, waiting: VecDeque::with_capacity(WAITING) }
+        let driver = Driver { controller, worker: InlineWorker };
+        Self { driver, plant, measurement, tick: 0, waiting: VecDeque::with_capacity(WAITING) }
+    }
+
+    /// The controller.
+    pub fn controller(&self) -> &Controller {
+        &self.driver.controller
     }
 
     /// One period of both, with a single request of a person.
-    pub fn tick(&mut self, request: Option<(&Request, Option<Intent>)>) -> TickReport {
-        let asked = request.map(|(request, intent)| Asked {
-            request: *request,
-            intent,
-            source: Source::Console,
-            lasting: Lasting::UntilChanged,
-        });
-        self.tick_with(asked.as_ref())
+    pub fn tick(&mut self, request: Option<(&GaitChange, Option<Intent>)>) -> Tick {
+        let request = request.map(|(gait, intent)| Request { gait: *gait, intent, ..Request::new(Source::Console) });
+        self.tick_with(request.as_ref())
     }
 
-    /// One period of both, with what somebody asks.
-    pub fn tick_with(&mut self, asked: Option<&Asked>) -> TickReport {
-        self.tick_in(asked, Plant::step)
+    /// One period of both, with a request of any source.
+    pub fn tick_with(&mut self, request: Option<&Request>) -> Tick {
+        self.tick_in(request, Plant::step)
     }
 
     /// The same with the plant moved on by `step`: by another engine, for example.
     pub fn tick_in(
         &mut self,
-        asked: Option<&Asked>,
-        step: impl FnOnce(&mut Plant, &Setpoint) -> plant::Measurement,
-    ) -> TickReport {
-        self.settle();
-        self.waiting.extend(asked);
-        if self.controller.is_free()
-            && let Some(asked) = self.waiting.pop_front()
-        {
-            self.controller.ask(&asked);
-            self.settle();
-        }
-        let report = self.controller.tick(PERIOD, Some(&self.measured));
+        request: Option<&Request>,
+        step: impl FnOnce(&mut Plant, &Setpoint) -> Measurement,
+    ) -> Tick {
+        self.waiting.extend(request);
+        let tick = self.driver.step(PERIOD, Some(&self.measurement), || self.waiting.pop_front()).tick;
         self.tick += 1;
-        self.measured = sensed(&step(&mut self.plant, &setpoint(&report)));
-        report
-    }
-
-    fn settle(&mut self) {
-        if let Some(mut inquiry) = self.controller.inquiry() {
-            inquiry.settle();
-            self.controller.give_back(inquiry);
-        }
+        self.measurement = step(&mut self.plant, &tick.setpoint);
+        tick
     }
 
     /// Requests something: the report of the tick that answers, which is this one or, if it has to wait for a swap, one soon.
-    pub fn ask(&mut self, request: Request, intent: Option<Intent>) -> TickReport {
+    pub fn ask(&mut self, request: GaitChange, intent: Option<Intent>) -> Tick {
         let mut report = self.tick(Some((&request, intent)));
         for _ in 0..ANSWERED_WITHIN {
-            if report.answer.is_some() {
+            if report.reply.is_some() {
                 break;
             }
             report = self.tick(None);
@@ -137,19 +126,15 @@ impl Walking {
     }
 
     /// Whether the robot lies, or the controller believes so: `report` is the last tick's.
-    pub fn has_fallen(&self, report: &TickReport) -> bool {
-        report.mode == Mode::Fallen || self.plant.truth().has_fallen()
+    pub fn has_fallen(&self, report: &Tick) -> bool {
+        report.report.mode == Mode::Fallen || self.plant.truth().has_fallen()
     }
 
     /// Walks on until a tick is reported of which `reached` is true, for at most `seconds`, or until it falls.
     ///
     /// # Errors
     /// The last report, if it fell or took longer.
-    pub fn walk_until(
-        &mut self,
-        seconds: f64,
-        mut reached: impl FnMut(&TickReport) -> bool,
-    ) -> Result<TickReport, Box<TickReport>> {
+    pub fn walk_until(&mut self, seconds: f64, mut reached: impl FnMut(&Tick) -> bool) -> Result<Tick, Box<Tick>> {
         let end = self.time() + seconds;
         loop {
             let report = self.tick(None);
@@ -168,31 +153,15 @@ impl Walking {
         for _ in 0..(seconds / PERIOD).round() as u64 {
             let report = self.tick(None);
             let truth = self.plant.truth();
-            if truth.has_fallen() || report.mode == Mode::Fallen {
+            if truth.has_fallen() || report.report.mode == Mode::Fallen {
                 return truth;
             }
         }
         self.plant.truth()
     }
 
-    /// Walked time so far [s].
+    /// Walked time so far (s).
     pub fn time(&self) -> f64 {
         self.tick as f64 * PERIOD
     }
-}
-
-fn sensed(measured: &plant::Measurement) -> Measurement {
-    Measurement {
-        tick: measured.sample,
-        angles: measured.angles,
-        rates: measured.rates,
-        feet: measured.feet,
-        orientation: measured.orientation.into_inner(),
-        angular_rate: measured.angular_rate,
-    }
-}
-
-fn setpoint(report: &TickReport) -> Setpoint {
-    let controller::Setpoint { angles, rates, feed_forward } = report.setpoint;
-    Setpoint { angles, rates, feed_forward }
 }

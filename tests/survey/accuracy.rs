@@ -1,25 +1,26 @@
 //! Accuracy: what larger integration steps err, in our plant and in MuJoCo.
 //!
-//! Each engine walks by itself, controlled, in steps of 10 µs: its reference, since each has its own contacts. From places of
-//! that walk the same setpoints are played again without a controller, in larger steps, and after some time it is told how far
-//! the robot is from the reference: the root of the mean square over all places. As committed our plant must not err more
-//! than MuJoCo does in steps of a millisecond.
+//! Each engine walks by itself, controlled, in steps of 10 µs: its reference, since each has its own contacts. From
+//! places of that walk the same setpoints are played again without a controller, in larger steps, and after some time
+//! it is told how far the robot is from the reference: the root of the mean square over all places. As committed our
+//! plant must not err more than MuJoCo does in steps of a millisecond.
 
+use interface::Setpoint;
 use std::path::PathBuf;
 
-use halfstep::engine::Setup;
 use halfstep_tests::mechanism;
 use halfstep_tests::replaying::{Apart, REFERENCE_STEPS, Reference};
 use halfstep_tests::walking::{PERIOD, controller_parameters, plant_parameters};
 use model::{Joint, Mechanism};
-use plant::{Disturbances, Plant, RobotState, Setpoint};
+use node::engine::EngineSetup;
+use plant::{Disturbances, Plant, RobotState};
 use serde_json::{Value, json};
 
 use crate::mujoco::{self, Outside};
 use crate::table;
 
 #[derive(clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// Places of the walk from which it is played again
     #[arg(long, default_value_t = 20)]
     starts: usize,
@@ -33,13 +34,13 @@ pub struct Options {
 
 /// Integration steps per control period, of both engines.
 const STEPS: [u32; 4] = [1, 2, 4, 8];
-/// The walk is steady by then [control periods].
+/// The walk is steady by then (control periods).
 const FIRST: usize = 1000;
-/// From place to place: no divisor of a half-step, so that all its phases come [control periods].
+/// From place to place: no divisor of a half-step, so that all its phases come (control periods).
 const EVERY: usize = 137;
-/// How much of what follows each place is written [control periods].
+/// How much of what follows each place is written (control periods).
 const PLAYED: usize = 200;
-/// When errors are told [control periods]: the last is a half-step.
+/// When errors are told (control periods): the last is a half-step.
 const AFTER: [usize; 3] = [100, 200, 600];
 
 /// An engine with so many integration steps per control period.
@@ -49,7 +50,7 @@ struct Row {
     apart: [Apart; AFTER.len()],
 }
 
-pub fn survey(options: &Options) -> bool {
+pub(crate) fn survey(options: &Options) -> bool {
     let mechanism = mechanism();
     let starts: Vec<usize> = (0..options.starts).map(|number| FIRST + number * EVERY).collect();
     let periods = FIRST + options.starts * EVERY + AFTER[AFTER.len() - 1] + 1;
@@ -99,9 +100,9 @@ fn mujocos(mechanism: &Mechanism, walk: &Reference, starts: &[usize], steps: u32
 }
 
 /// MuJoCo's robot in a state.
-fn setup(mechanism: &Mechanism, robot: &RobotState, steps: u32) -> Setup {
-    let parameters = plant::Parameters { steps_per_period: steps, ..plant_parameters() };
-    Setup::new(mechanism, &parameters, &Disturbances::default(), robot, 0, PERIOD).expect("an even floor")
+fn setup(mechanism: &Mechanism, robot: &RobotState, steps: u32) -> EngineSetup {
+    let parameters = plant::PlantParameters { steps_per_period: steps, ..plant_parameters() };
+    EngineSetup::new(mechanism, &parameters, &Disturbances::default(), robot, 0, PERIOD).expect("an even floor")
 }
 
 /// For each place what an engine is told, and the setpoints that follow: rows of angles, rates and torques.

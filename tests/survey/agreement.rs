@@ -1,9 +1,10 @@
-//! Agreement: the same random scenarios in our own plant and in MuJoCo. Half of them are hard: no compensation, the paper's
-//! constant lean, pushes, low friction. Do both fall, or none? And how far apart are the zero-moment points of nominal walks?
+//! Agreement: the same random scenarios in our own plant and in MuJoCo. Half of them are hard: no compensation, the
+//! paper's constant lean, pushes, low friction. Do both fall, or none? And how far apart are the zero-moment points of
+//! nominal walks?
 
+use interface::{Measurement, Setpoint};
 use std::fmt;
 
-use balance::{LeanAt, PaperLean};
 use controller::Compensation;
 use dynamics::Tree;
 use gait::at_speed;
@@ -11,23 +12,23 @@ use halfstep_tests::walking::{PERIOD, Walking, controller_parameters, nominal, p
 use halfstep_tests::{mechanism, random};
 use model::Joint;
 use nalgebra::Vector2;
-use plant::{Disturbances, Measurement, Plant, Push, Setpoint};
+use paper::{LeanAt, PaperLean};
+use plant::{Disturbances, Plant, Push};
 use rand::Rng;
 
-use crate::asked;
 use crate::cores::on_all_cores;
 use crate::mujoco::{Outside, start};
 use crate::playback::Playback;
 use crate::streams::Source;
-use crate::table;
 use crate::watched::Watched;
+use crate::{asked, table};
 
 #[derive(clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// How many scenarios
     #[arg(long, default_value_t = 200)]
     scenarios: usize,
-    /// How long each [s]
+    /// How long each (s)
     #[arg(long, default_value_t = 20.0)]
     seconds: f64,
     /// How many nominal walks are compared by their ZMP
@@ -37,7 +38,7 @@ pub struct Options {
 
 /// Share of the scenarios whose outcome must be the same.
 const AGREEING: f64 = 0.9;
-/// How far apart the ZMPs of nominal walks may be, as a root mean square [m].
+/// How far apart the ZMPs of nominal walks may be, as a root mean square (m).
 const APART: f64 = 0.015;
 
 /// What is different in a scenario.
@@ -49,19 +50,19 @@ enum Kind {
     Uncompensated(f64),
     /// The computed constant lean at a speed, with feedback.
     Lean(LeanAt, f64),
-    /// A push at a time, with a stream [N·s, s].
+    /// A push at a time, with a stream (N·s, s).
     Push(Vector2<f64>, f64),
     /// Low friction, with a stream.
     Slippery(f64),
 }
 
-/// When it fell in our plant and in MuJoCo [s].
+/// When it fell in our plant and in MuJoCo (s).
 struct Outcome {
     kind: Kind,
     falls: [Option<f64>; 2],
 }
 
-pub fn survey(options: &Options) -> bool {
+pub(crate) fn survey(options: &Options) -> bool {
     let outcomes = on_all_cores(options.scenarios, |index| {
         let kind = Kind::of(index as u64);
         let falls = [false, true].map(|in_mujoco| kind.falls(index as u64, options.seconds, in_mujoco));
@@ -119,7 +120,7 @@ impl Kind {
         }
     }
 
-    /// When it falls [s].
+    /// When it falls (s).
     fn falls(self, seed: u64, seconds: f64, in_mujoco: bool) -> Option<f64> {
         let mechanism = mechanism();
         let (mut controller, mut plant) = (controller_parameters(), plant_parameters());
@@ -134,7 +135,7 @@ impl Kind {
             }
             Kind::Uncompensated(_) => {
                 controller.compensation = Compensation::None;
-                controller.balance.feedback.gain = 0.0;
+                controller.stabilizer.feedback.gain = 0.0;
             }
             Kind::Lean(at, speed) => return lean(at, speed, seconds, in_mujoco),
             Kind::Push(impulse, start) => {
@@ -155,7 +156,7 @@ impl Kind {
         let mut watched = Watched::begin_in(walking, &mut step);
         let mut source = Source::new(seed);
         while watched.fall.is_none() && watched.walking.time() < seconds {
-            let half_step = watched.report.half_step.index;
+            let half_step = watched.report.report.half_step.index;
             let request = match self {
                 Kind::Uncompensated(speed) => (half_step == 4).then(|| asked::request(speed, 0.0, 0.0)),
                 _ => source.next(half_step),
@@ -174,18 +175,18 @@ fn physics(mut outside: Option<Outside>) -> impl FnMut(&mut Plant, &Setpoint) ->
     }
 }
 
-/// When the steady walk with the computed constant lean falls [s].
+/// When the steady walk with the computed constant lean falls (s).
 fn lean(at: LeanAt, speed: f64, seconds: f64, in_mujoco: bool) -> Option<f64> {
     let (mechanism, table, controller, plant) = (mechanism(), nominal(), controller_parameters(), plant_parameters());
     let motions: Vec<_> = table.rows.iter().map(|row| at_speed(&row.motion, speed, 0.0)).collect();
     let best = PaperLean::best(&Tree::new(&mechanism), &mechanism.sole, at, &motions);
-    let feedback = controller.balance.feedback;
+    let feedback = controller.stabilizer.feedback;
     let mut walk = Playback::begin(&mechanism, table, &controller.gait, &plant, feedback, speed, best);
     let outside = in_mujoco.then(|| Outside::begin(&mechanism, &plant, &Disturbances::default(), &walk.start, 0));
     walk.falls_in(seconds, physics(outside))
 }
 
-/// Root mean square of the distance of both plants' ZMP, as the controller senses it, over a nominal walk [m].
+/// Root mean square of the distance of both plants' ZMP, as the controller senses it, over a nominal walk (m).
 fn zmp_apart(seed: u64, seconds: f64) -> f64 {
     let (mechanism, controller, plant) = (mechanism(), controller_parameters(), plant_parameters());
     let traces = [false, true].map(|in_mujoco| -> Vec<Option<Vector2<f64>>> {
@@ -193,7 +194,7 @@ fn zmp_apart(seed: u64, seconds: f64) -> f64 {
         let mut step =
             physics(in_mujoco.then(|| Outside::begin(&mechanism, &plant, &Disturbances::default(), &start, seed)));
         let mut walking = Walking::begin_with(&mechanism, &controller, &plant, seed);
-        (0..(seconds / PERIOD) as usize).map(|_| walking.tick_in(None, &mut step).zmp_in_support).collect()
+        (0..(seconds / PERIOD) as usize).map(|_| walking.tick_in(None, &mut step).report.zmp_in_support).collect()
     });
     let [ours, theirs] = &traces;
     let apart: Vec<f64> = std::iter::zip(ours, theirs)

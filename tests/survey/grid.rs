@@ -1,6 +1,6 @@
 //! The grid: speed, turn and extension in every combination.
 
-use gait::Verdict;
+use interface::Verdict;
 
 use crate::asked::{self, EXTENSIONS_DEG, SPEEDS, TURNS_DEG, spread};
 use crate::cores::on_all_cores;
@@ -8,7 +8,7 @@ use crate::single::walk;
 use crate::table::{self, millimetres};
 
 #[derive(clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// Values of speed, of turn and of extension
     #[arg(long, num_args = 3, value_names = ["SPEEDS", "TURNS", "EXTENSIONS"], default_values_t = [7, 7, 5],
           value_parser = clap::value_parser!(u16).range(2..))]
@@ -24,7 +24,7 @@ pub struct Options {
 /// Share that must be accepted or limited.
 const GRANTED_SHARE: f64 = 0.8;
 
-pub fn survey(options: &Options) -> bool {
+pub(crate) fn survey(options: &Options) -> bool {
     let [speeds, turns, extensions] = [0, 1, 2].map(|axis: usize| usize::from(options.knots[axis]));
     let mut all = Vec::new();
     for speed in spread(&SPEEDS, speeds) {

@@ -1,8 +1,8 @@
 //! The long acceptance runs: what walks, what falls, and by how little.
 //!
 //! `cargo run --release -p halfstep-survey -- NAME`, with `--help` for what can be chosen. Controller and plant walk in
-//! lockstep in one process, on all cores, with the committed configuration; a seed decides everything. Each survey prints
-//! a table and ends with exit code 1 if something that must not happen happened.
+//! lockstep in one process, on all cores, with the committed configuration; a seed decides everything. Each survey
+//! prints a table and ends with exit code 1 if something that must not happen happened.
 
 #[cfg(feature = "mujoco")]
 mod accuracy;
@@ -57,7 +57,8 @@ enum Survey {
     /// What is granted, walked in MuJoCo
     #[cfg(feature = "mujoco")]
     Mujoco(mujoco::Options),
-    /// Random scenarios, half of them hard, in our plant and in MuJoCo: whether both fall or walk, and how near their ZMP is
+    /// Random scenarios, half of them hard, in our plant and in MuJoCo: whether both fall or walk, and how near their
+    /// ZMP is
     #[cfg(feature = "mujoco")]
     Agreement(agreement::Options),
     /// What larger integration steps err, in our plant and in MuJoCo

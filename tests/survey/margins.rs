@@ -1,10 +1,9 @@
-//! Margins: the least margin of each half-step as the plan predicts it against what is then measured; and the one that a
-//! reply tells against the least of the time it tells of.
+//! Margins: the least margin of each half-step as the plan predicts it against what is then measured; and the one that
+//! a reply tells against the least of the time it tells of.
 
-use controller::Mode;
-use gait::Command;
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::Walking;
+use interface::{Command, Mode};
 
 use crate::cores::on_all_cores;
 use crate::streams::Source;
@@ -12,7 +11,7 @@ use crate::table;
 use crate::watched::{BETWEEN_SWAPS, Watched};
 
 #[derive(clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// How many random streams
     #[arg(long, default_value_t = 20)]
     seeds: u64,
@@ -21,34 +20,34 @@ pub struct Options {
     seconds: f64,
 }
 
-/// A prediction is good if it is no more than this off [m].
+/// A prediction is good if it is no more than this off (m).
 const GOOD: f64 = 0.01;
 /// Share of the half-steps that must be predicted well.
 const GOOD_SHARE: f64 = 0.95;
-/// Width of the histogram's bins [m], and how many there are on each side.
+/// Width of the histogram's bins (m), and how many there are on each side.
 const BIN: f64 = 0.005;
 const BINS: i32 = 6;
 
-/// How far ahead a reply tells [s].
+/// How far ahead a reply tells (s).
 const FORETOLD: f64 = 2.8;
 
 /// What a walk gave.
 #[derive(Default)]
 struct Walked {
     half_steps: Vec<HalfStep>,
-    /// What replies said of a time in which nothing else was asked: measured less predicted [m].
+    /// What replies said of a time in which nothing else was asked: measured less predicted (m).
     replies: Vec<f64>,
     fell: bool,
 }
 
-/// What a reply said, until the time it tells of is over [m, s].
+/// What a reply said, until the time it tells of is over (m, s).
 struct Promise {
     predicted: f64,
     measured: f64,
     until: f64,
 }
 
-/// The least margins of a half-step [m].
+/// The least margins of a half-step (m).
 struct HalfStep {
     predicted: f64,
     measured: f64,
@@ -56,7 +55,7 @@ struct HalfStep {
     steady: bool,
 }
 
-pub fn survey(options: &Options) -> bool {
+pub(crate) fn survey(options: &Options) -> bool {
     let walks = on_all_cores(options.seeds as usize, |seed| walk(seed as u64, options.seconds));
     let falls = walks.iter().filter(|walk| walk.fell).count();
     let replies: Vec<f64> = walks.iter().flat_map(|walk| walk.replies.clone()).collect();
@@ -126,21 +125,21 @@ fn walk(seed: u64, seconds: f64) -> Walked {
     let none = HalfStep { predicted: f64::INFINITY, measured: f64::INFINITY, steady: true };
     let (mut present, mut index, mut command, mut changed_in) = (none, 0, Command::NOMINAL, None);
     while watched.fall.is_none() && watched.walking.time() < seconds {
-        let request = source.next(watched.report.half_step.index);
+        let request = source.next(watched.report.report.half_step.index);
         watched.tick(request.as_ref());
         let (report, now) = (&watched.report, watched.walking.time());
-        if let Some(answer) = report.answer {
+        if let Some(answer) = report.reply {
             let until = now + FORETOLD;
             promise = answer.predicted_margin.map(|predicted| Promise { predicted, measured: f64::INFINITY, until });
         }
         if let Some(Promise { predicted, measured, .. }) = promise.take_if(|promise| now >= promise.until) {
             walked.replies.push(measured - predicted);
         }
-        if report.half_step.index != index {
+        if report.report.half_step.index != index {
             if present.predicted.is_finite() {
                 walked.half_steps.push(present);
             }
-            index = report.half_step.index;
+            index = report.report.half_step.index;
             let steady = changed_in.is_none_or(|changed| index > changed + 2);
             present = HalfStep { predicted: f64::INFINITY, measured: f64::INFINITY, steady };
         }
@@ -149,12 +148,13 @@ fn walk(seed: u64, seconds: f64) -> Walked {
             changed_in = Some(index);
             present.steady = false;
         }
-        if report.mode == Mode::Walking && BETWEEN_SWAPS.contains(&report.half_step.progress) {
-            let zmp = report.zmp_planned;
-            present.predicted = present.predicted.min(sole.margin(zmp.x, zmp.y));
-            present.measured = present.measured.min(report.margin);
+        if report.report.mode == Mode::Walking && BETWEEN_SWAPS.contains(&report.report.half_step.progress) {
+            let zmp = report.report.zmp_planned;
+            present.predicted = zmp.map_or(present.predicted, |zmp| present.predicted.min(sole.margin(zmp.x, zmp.y)));
+            let margin = report.report.margin.unwrap_or(f64::NEG_INFINITY);
+            present.measured = present.measured.min(margin);
             if let Some(promise) = &mut promise {
-                promise.measured = promise.measured.min(report.margin);
+                promise.measured = promise.measured.min(margin);
             }
         }
     }

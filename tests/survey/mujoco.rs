@@ -1,12 +1,14 @@
-//! MuJoCo: what is granted in our own plant, walked in a physics engine that none of us wrote, with the same parameters.
+//! MuJoCo: what is granted in our own plant, walked in a physics engine that none of us wrote, with the same
+//! parameters.
 
 use controller::Parameters;
-use gait::{Request, Start, Verdict, Walk};
-use halfstep::engine::{self, OutsideEngine, Setup};
+use gait::{Start, Walk};
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::{PERIOD, Walking, controller_parameters, nominal, plant_parameters};
+use interface::{GaitChange, Measurement, Setpoint, Verdict};
 use model::{Mechanism, Motion};
-use plant::{Disturbances, Measurement, Plant, RobotState, Setpoint};
+use node::engine::{self, EngineSetup, ExternalEngine};
+use plant::{Disturbances, Plant, RobotState};
 
 use crate::asked::request;
 use crate::cores::on_all_cores;
@@ -15,19 +17,19 @@ use crate::table::{self, millimetres};
 use crate::watched::Watched;
 
 #[derive(clap::Args)]
-pub struct Options {
-    /// How long each single command is walked [s]
+pub(crate) struct Options {
+    /// How long each single command is walked (s)
     #[arg(long, default_value_t = 40.0)]
     seconds: f64,
     /// How many random streams besides
     #[arg(long, default_value_t = 10)]
     streams: u64,
-    /// How long each [s]
+    /// How long each (s)
     #[arg(long, default_value_t = 300.0)]
     stream_seconds: f64,
 }
 
-/// `c`, `α` [deg], `β` [deg]: what must walk (issue "The world outside").
+/// `c`, `α` (deg), `β` (deg): what must walk (issue "The world outside").
 const COMMANDS: [(f64, f64, f64); 15] = [
     (1.0, 0.0, 0.0),
     (0.6, 0.0, 0.0),
@@ -47,43 +49,45 @@ const COMMANDS: [(f64, f64, f64); 15] = [
 ];
 
 /// Another engine in place of the plant's own physics.
-pub struct Outside {
-    engine: OutsideEngine,
+pub(crate) struct Outside {
+    engine: ExternalEngine,
 }
 
 impl Outside {
     /// MuJoCo with the robot of a plant that begins with `start`, in physical joints, and with its pushes.
-    pub fn begin(
+    pub(crate) fn begin(
         mechanism: &Mechanism,
-        parameters: &plant::Parameters,
+        parameters: &plant::PlantParameters,
         disturbances: &Disturbances,
         start: &Motion,
         seed: u64,
     ) -> Self {
         let robot = RobotState::on_right_foot(start, 0.0);
-        Self::take_over(Setup::new(mechanism, parameters, disturbances, &robot, seed, PERIOD).expect("an even floor"))
+        Self::take_over(
+            EngineSetup::new(mechanism, parameters, disturbances, &robot, seed, PERIOD).expect("an even floor"),
+        )
     }
 
     /// MuJoCo with the robot that it is told.
-    pub fn take_over(setup: Setup) -> Self {
+    pub(crate) fn take_over(setup: EngineSetup) -> Self {
         let python = engine::mujoco().unwrap_or_else(|failure| panic!("{failure}"));
-        Self { engine: OutsideEngine::start(python, &setup).unwrap_or_else(|error| panic!("{error}")) }
+        Self { engine: ExternalEngine::start(python, &setup).unwrap_or_else(|error| panic!("{error}")) }
     }
 
     /// Moves the plant's robot on by one control period.
-    pub fn step(&mut self, plant: &mut Plant, setpoint: &Setpoint) -> Measurement {
+    pub(crate) fn step(&mut self, plant: &mut Plant, setpoint: &Setpoint) -> Measurement {
         self.engine.step(plant, setpoint).unwrap_or_else(|error| panic!("{error}"))
     }
 }
 
 /// A walk that can be moved by MuJoCo, too: where it begins.
-pub fn start(mechanism: &Mechanism, controller: &Parameters) -> Motion {
+pub(crate) fn start(mechanism: &Mechanism, controller: &Parameters) -> Motion {
     Walk::new(nominal(), mechanism, &controller.gait, Start::default())
         .expect("the committed nominal walks")
         .physical_motion()
 }
 
-pub fn survey(options: &Options) -> bool {
+pub(crate) fn survey(options: &Options) -> bool {
     let singles = COMMANDS.len();
     let walks = on_all_cores(singles + options.streams as usize, |index| match COMMANDS.get(index) {
         Some(&(speed, turn, extension)) => {
@@ -106,7 +110,7 @@ pub fn survey(options: &Options) -> bool {
             };
             vec![
                 name,
-                watched.report.half_step.index.to_string(),
+                watched.report.report.half_step.index.to_string(),
                 refused.to_string(),
                 millimetres(watched.least_margin),
                 watched.fall.as_ref().map_or_else(|| "walks".into(), ToString::to_string),
@@ -120,7 +124,7 @@ pub fn survey(options: &Options) -> bool {
 }
 
 /// Walks by what is asked in each half-step; how often was that refused?
-fn walk(seed: u64, seconds: f64, mut asked: impl FnMut(u64) -> Option<Request>) -> (Watched, u32) {
+fn walk(seed: u64, seconds: f64, mut asked: impl FnMut(u64) -> Option<GaitChange>) -> (Watched, u32) {
     let (mechanism, controller, plant) = (mechanism(), controller_parameters(), plant_parameters());
     let start = start(&mechanism, &controller);
     let mut outside = Outside::begin(&mechanism, &plant, &Disturbances::default(), &start, seed);
@@ -128,11 +132,11 @@ fn walk(seed: u64, seconds: f64, mut asked: impl FnMut(u64) -> Option<Request>) 
     let mut watched = Watched::begin_in(walking, |plant, setpoint| outside.step(plant, setpoint));
     let (mut refused, mut last) = (0, u64::MAX);
     while watched.fall.is_none() && watched.walking.time() < seconds {
-        let half_step = watched.report.half_step.index;
+        let half_step = watched.report.report.half_step.index;
         let request = if half_step == last { None } else { asked(half_step) };
         last = half_step;
         watched.tick_in(request.as_ref(), |plant, setpoint| outside.step(plant, setpoint));
-        refused += watched.report.answer.map_or(0, |answer| u32::from(answer.admission.verdict == Verdict::Refused));
+        refused += watched.report.reply.map_or(0, |answer| u32::from(answer.verdict == Verdict::Refused));
     }
     (watched, refused)
 }

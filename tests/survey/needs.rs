@@ -1,23 +1,23 @@
 //! Needs: the paper's lean at ankle or trunk against what the preview adds, and what falls without either.
 
-use balance::{FeedbackParameters, LeanAt, PaperLean};
+use config::{self, Document};
 use controller::{Compensation, Parameters};
 use dynamics::Tree;
 use gait::{NominalTable, at_speed};
 use halfstep_tests::walking::{Walking, controller_parameters, nominal, plant_parameters};
 use halfstep_tests::{mechanism, repository};
-use model::config::{self, Document};
 use model::{Mechanism, Motion};
 use nalgebra::Vector2;
+use paper::{LeanAt, PaperLean};
+use stabilizer::FeedbackParameters;
 
-use crate::asked;
 use crate::cores::on_all_cores;
 use crate::playback::Playback;
-use crate::table;
 use crate::watched::Watched;
+use crate::{asked, table};
 
 #[derive(clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// How long each walk
     #[arg(long, default_value_t = 30.0)]
     seconds: f64,
@@ -36,16 +36,16 @@ struct Stated {
     lean: PaperLean,
 }
 
-/// What a speed needs, and what falls [s].
+/// What a speed needs, and what falls (s).
 struct Need {
     best: [PaperLean; 2],
-    /// Largest angles that the preview adds at ankle and waist, and the feedback at the ankle [rad].
+    /// Largest angles that the preview adds at ankle and waist, and the feedback at the ankle (rad).
     ours: [f64; 3],
     /// Without and with feedback: uncompensated, leaning at the ankle, leaning at the trunk, preview.
     falls: [[Option<f64>; 4]; 2],
 }
 
-pub fn survey(options: &Options) -> bool {
+pub(crate) fn survey(options: &Options) -> bool {
     let stated = stated();
     let needs = on_all_cores(SPEEDS.len(), |index| need(SPEEDS[index], &stated, options.seconds));
 
@@ -107,8 +107,8 @@ fn need(speed: f64, stated: &[Stated], seconds: f64) -> Need {
 
     let steps = (seconds * speed / table.duration) as u64;
     let mut ours = [0.0; 3];
-    let falls = [0.0, parameters.balance.feedback.gain].map(|gain| {
-        let feedback = FeedbackParameters { gain, ..parameters.balance.feedback };
+    let falls = [0.0, parameters.stabilizer.feedback.gain].map(|gain| {
+        let feedback = FeedbackParameters { gain, ..parameters.stabilizer.feedback };
         let [ankle, trunk] = [0, 1].map(|place| {
             let lean = of_paper(stated, speed, ats[place]).unwrap_or(best[place]);
             let plant = plant_parameters();
@@ -117,7 +117,7 @@ fn need(speed: f64, stated: &[Stated], seconds: f64) -> Need {
         });
         let controlled = |compensation| {
             let mut parameters = Parameters { compensation, ..parameters };
-            parameters.balance.feedback = feedback;
+            parameters.stabilizer.feedback = feedback;
             walk(&mechanism, &parameters, speed, steps)
         };
         let (_, uncompensated) = controlled(Compensation::None);
@@ -135,12 +135,13 @@ fn walk(mechanism: &Mechanism, parameters: &Parameters, speed: f64, half_steps: 
     watched.walk_half_steps(ENTRY);
     watched.tick(Some(&asked::request(speed, 0.0, 0.0)));
     let mut largest: [f64; 3] = [0.0; 3];
-    while watched.fall.is_none() && watched.report.half_step.index < ENTRY + SETTLING + half_steps {
+    while watched.fall.is_none() && watched.report.report.half_step.index < ENTRY + SETTLING + half_steps {
         watched.tick(None);
         let report = &watched.report;
-        if report.half_step.index >= ENTRY + SETTLING {
-            let (ankle, waist) = report.added.map_or((0.0, 0.0), |added| (added.ankle.amax(), added.waist.amax()));
-            let now = [ankle, waist, report.lean.amax()];
+        if report.report.half_step.index >= ENTRY + SETTLING {
+            let (ankle, waist) =
+                report.report.added.map_or((0.0, 0.0), |added| (added.ankle.amax(), added.waist.amax()));
+            let now = [ankle, waist, report.report.lean.amax()];
             largest = [0, 1, 2].map(|angle: usize| largest[angle].max(now[angle]));
         }
     }
@@ -161,7 +162,7 @@ fn stated() -> Vec<Stated> {
 /// Of one figure, if it leans. `halfstep check` reads these files strictly; here only what is needed is read.
 fn stated_in(figure: u32) -> Option<Stated> {
     let file = repository().join(format!("config/scenarios/figure_{figure:02}.toml"));
-    let text = config::read(&file).unwrap_or_else(|errors| panic!("{errors}"));
+    let text = config::read_text(&file).unwrap_or_else(|errors| panic!("{errors}"));
     let document = Document::parse(&text, &file.display().to_string()).unwrap_or_else(|errors| panic!("{errors}"));
     let root = document.root();
     root.has("lean").then(|| {

@@ -1,33 +1,35 @@
 //! Playback: the modified half-step with the paper's constant lean, played to the plant without a controller.
 //!
-//! The lean flips its side at every swap. No body can jump, so it goes over within [`FLIP`]. The ankle feedback that the
-//! controller has may be switched on, so that a fall is not for lack of it.
+//! The lean flips its side at every swap. No body can jump, so it goes over within [`FLIP`]. The ankle feedback that
+//! the controller has may be switched on, so that a fall is not for lack of it.
 
 use std::sync::Arc;
 
-use balance::{Balance, CentreOfMass, Feedback, FeedbackParameters, PaperLean, Plan, Sensed};
-use dynamics::{Kinematics, Tree};
-use gait::{Command, GaitParameters, NominalTable, Start, Walk, interpolate};
-use model::{Mechanism, Motion, Side};
-use nalgebra::{Vector2, Vector3};
-use plant::{Measurement, Plant, Setpoint};
+use dynamics::{Kinematics, ReferenceDynamics, Tree};
+use gait::{GaitParameters, NominalTable, Start, Walk, interpolate};
+use interface::{Command, Measurement, Setpoint};
+use model::{ComState, Mechanism, Mirrored, Motion};
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use paper::PaperLean;
+use plant::Plant;
+use stabilizer::{BalanceState, DcmFeedback, FeedbackParameters, SupportFrameMeasurement, estimate_com};
 
 use halfstep_tests::walking::PERIOD;
 
-/// How long the lean takes from one side to the other [s].
+/// How long the lean takes from one side to the other (s).
 const FLIP: f64 = 0.06;
 
 /// A walk that nobody controls.
-pub struct Playback {
+pub(crate) struct Playback {
     /// Where it begins, in physical joints.
     pub start: Motion,
     tree: Tree,
     walk: Walk,
     lean: PaperLean,
-    /// Since the last swap [s].
+    /// Since the last swap (s).
     since_swap: f64,
-    plan: Plan,
-    feedback: Feedback,
+    plan: ReferenceDynamics,
+    feedback: DcmFeedback,
     kinematics: Kinematics,
     plant: Plant,
     measured: Measurement,
@@ -35,11 +37,11 @@ pub struct Playback {
 
 impl Playback {
     /// At the beginning of a half-step of the steady walk at `speed`, leaning.
-    pub fn begin(
+    pub(crate) fn begin(
         mechanism: &Mechanism,
         table: Arc<NominalTable>,
         gait: &GaitParameters,
-        plant: &plant::Parameters,
+        plant: &plant::PlantParameters,
         feedback: FeedbackParameters,
         speed: f64,
         lean: PaperLean,
@@ -50,11 +52,11 @@ impl Playback {
         let start = lean.lean(&walk.motion());
         let mut plant = Plant::new(mechanism, plant, &start, PERIOD, 0);
         let measured = plant.measure();
-        let mut plan = Plan::new(mechanism, &tree, walk.mirror());
+        let mut plan = ReferenceDynamics::new(mechanism, &tree, walk.mirror());
         plan.update(&tree, walk.mirror(), &lean.lean(&walk.motion()), false);
         Self {
             start,
-            feedback: Feedback::new(mechanism, feedback),
+            feedback: DcmFeedback::new(mechanism, feedback),
             kinematics: Kinematics::default(),
             since_swap: f64::INFINITY,
             tree,
@@ -66,13 +68,13 @@ impl Playback {
         }
     }
 
-    /// When it falls [s]; `None` if it walks so many seconds.
-    pub fn falls_within(&mut self, seconds: f64) -> Option<f64> {
+    /// When it falls (s); `None` if it walks so many seconds.
+    pub(crate) fn falls_within(&mut self, seconds: f64) -> Option<f64> {
         self.falls_in(seconds, Plant::step)
     }
 
     /// The same with the plant moved on by `step`: by another engine, for example.
-    pub fn falls_in(
+    pub(crate) fn falls_in(
         &mut self,
         seconds: f64,
         mut step: impl FnMut(&mut Plant, &Setpoint) -> Measurement,
@@ -89,11 +91,11 @@ impl Playback {
     fn tick(&mut self, step: impl FnOnce(&mut Plant, &Setpoint) -> Measurement) {
         // Balance answers what was sensed, told from the foot that bore then.
         let sensed = self.centre_of_mass();
-        let sensed = Balance { centre_of_mass: sensed, tilt: Vector2::zeros(), zmp: None };
-        self.feedback.update(&self.plan.balance(), Some(&sensed), false, PERIOD);
+        let sensed = BalanceState { com: sensed, tilt: Vector2::zeros(), zmp: None };
+        self.feedback.update(&BalanceState::planned(&self.plan), Some(&sensed), false, PERIOD);
         self.since_swap += PERIOD;
         if self.walk.advance(PERIOD) {
-            self.feedback.swap(self.walk.mirror());
+            self.feedback.change_support(self.walk.mirror());
             self.since_swap = 0.0;
         }
 
@@ -101,10 +103,8 @@ impl Playback {
         self.plan.update(&self.tree, self.walk.mirror(), &leaning, false);
         let asked = leaning + *self.feedback.offsets();
         let mirror = self.walk.mirror();
-        let (asked, torques) = match self.walk.half_step().support {
-            Side::Right => (asked, self.plan.torques),
-            Side::Left => (asked.mirrored(mirror), mirror.apply(&self.plan.torques)),
-        };
+        let support = self.walk.half_step().support;
+        let (asked, torques) = (mirror.to_physical(support, &asked), mirror.to_physical(support, &self.plan.torques));
         let setpoint = Setpoint { angles: asked.angles, rates: asked.rates, feed_forward: torques };
         self.measured = step(&mut self.plant, &setpoint);
     }
@@ -116,12 +116,11 @@ impl Playback {
         interpolate(&before, &wanted, (self.since_swap / FLIP).min(1.0), FLIP)
     }
 
-    fn centre_of_mass(&mut self) -> CentreOfMass {
-        let Measurement { angles, rates, feet, orientation, angular_rate, .. } = &self.measured;
-        let up = orientation.inverse() * Vector3::z();
+    fn centre_of_mass(&mut self) -> ComState {
+        let up = UnitQuaternion::new_unchecked(self.measured.orientation).inverse() * Vector3::z();
         let (support, mirror) = (self.walk.half_step().support, self.walk.mirror());
-        let sensed = Sensed::from_support(support, mirror, angles, rates, feet, up, *angular_rate);
-        self.kinematics.stand(&self.tree, &sensed.angles);
-        CentreOfMass::sensed(&self.tree, &self.kinematics, &sensed)
+        let sensed = SupportFrameMeasurement::new(support, mirror, &self.measured, up);
+        self.kinematics.compute_fixed_base(&self.tree, &sensed.angles);
+        estimate_com(&self.tree, &self.kinematics, &sensed)
     }
 }

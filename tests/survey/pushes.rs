@@ -1,14 +1,13 @@
 //! Pushes at the trunk: the largest impulse survived, by phase of the half-step and direction.
 
-use gait::Request;
 use halfstep_tests::pushing::{Direction, PUSH_DURATION, WALKS_ON, survives, walk_to};
+use interface::GaitChange;
 
-use crate::asked;
 use crate::cores::on_all_cores;
-use crate::table;
+use crate::{asked, table};
 
 #[derive(clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// Phases of the half-step
     #[arg(long, default_value_t = 12)]
     phases: usize,
@@ -29,15 +28,15 @@ pub struct Options {
     seed: u64,
 }
 
-/// What must be survived at every phase [N·s]: forward and back, and sideways.
+/// What must be survived at every phase (N·s): forward and back, and sideways.
 const DEMANDED: [f64; 2] = [15.0, 6.0];
-/// Impulses are tried in these steps, up to the first that fells the robot, and then halved down [N·s].
+/// Impulses are tried in these steps, up to the first that fells the robot, and then halved down (N·s).
 const STEP: f64 = 2.0;
 const RESOLUTION: f64 = 0.25;
-/// Nobody is pushed harder [N·s].
+/// Nobody is pushed harder (N·s).
 const IMPULSE_MAX: f64 = 60.0;
 
-pub fn survey(options: &Options) -> bool {
+pub(crate) fn survey(options: &Options) -> bool {
     let request = asked::request(options.speed, options.turn_deg, options.extension_deg);
     let directions = Direction::ALL;
     let survived = on_all_cores(options.phases * directions.len(), |index| {
@@ -71,7 +70,7 @@ fn demanded(direction: Direction) -> f64 {
 }
 
 /// The largest impulse below all that fell it. Where a robot falls is not monotonic: so all from none upwards are tried.
-fn largest_survived(options: &Options, request: Request, phase: f64, direction: Direction) -> f64 {
+fn largest_survived(options: &Options, request: GaitChange, phase: f64, direction: Direction) -> f64 {
     let Some(walking) = walk_to(options.seed, request, options.half_step, phase) else { return 0.0 };
     let mut survived = 0.0;
     while survived < IMPULSE_MAX && survives(&walking, direction, survived + STEP) {

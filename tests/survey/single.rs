@@ -1,7 +1,7 @@
 //! Single commands: speed, turn and extension, each alone over more than is granted, entered from the nominal walk.
 
-use gait::{Request, Verdict};
 use halfstep_tests::walking::Walking;
+use interface::{GaitChange, Verdict};
 
 use crate::asked::{self, EXTENSIONS_DEG, SPEEDS, TURNS_DEG, spread};
 use crate::cores::on_all_cores;
@@ -9,7 +9,7 @@ use crate::table::{self, millimetres};
 use crate::watched::Watched;
 
 #[derive(clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// Values of each quantity
     #[arg(long, default_value_t = 11, value_parser = clap::value_parser!(u16).range(2..))]
     values: u16,
@@ -22,15 +22,15 @@ pub struct Options {
 }
 
 /// Half-steps of the nominal walk before the request.
-pub const ENTRY: u64 = 4;
-/// What must be granted as asked (issue "It walks what it accepts"): `c`, `|α|` [deg] and `β` [deg].
+pub(crate) const ENTRY: u64 = 4;
+/// What must be granted as asked (issue "It walks what it accepts"): `c`, `|α|` (deg) and `β` (deg).
 const SPEEDS_DEMANDED: std::ops::RangeInclusive<f64> = 0.6..=1.4;
 const TURN_DEMANDED_DEG: f64 = 25.0;
 const EXTENSIONS_DEMANDED_DEG: std::ops::RangeInclusive<f64> = -5.0..=10.0;
 /// Values that are spread by sums miss by a rounding error.
 const ROUNDING: f64 = 1e-9;
 
-pub fn survey(options: &Options) -> bool {
+pub(crate) fn survey(options: &Options) -> bool {
     let values = usize::from(options.values);
     let speeds = spread(&SPEEDS, values).map(|speed| (speed, 0.0, 0.0));
     let turns = spread(&TURNS_DEG, values).map(|turn| (1.0, turn, 0.0));
@@ -68,12 +68,12 @@ pub fn survey(options: &Options) -> bool {
 }
 
 /// Walks by `request` for so many half-steps, after a few of the nominal walk.
-pub fn walk(request: Request, half_steps: u64, seed: u64) -> (Verdict, Watched) {
+pub(crate) fn walk(request: GaitChange, half_steps: u64, seed: u64) -> (Verdict, Watched) {
     let mut watched = Watched::new(Walking::begin(seed));
     watched.walk_half_steps(ENTRY);
     watched.begin_anew();
     watched.tick(Some(&request));
-    let verdict = watched.report.answer.map_or(Verdict::Refused, |answer| answer.admission.verdict);
+    let verdict = watched.report.reply.map_or(Verdict::Refused, |answer| answer.verdict);
     watched.walk_half_steps(half_steps);
     (verdict, watched)
 }

@@ -8,7 +8,7 @@ use crate::cores::on_all_cores;
 use crate::table;
 
 #[derive(clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// How many sequences
     #[arg(long, default_value_t = 1000)]
     seeds: u64,
@@ -20,7 +20,7 @@ pub struct Options {
     acts: u32,
 }
 
-pub fn survey(options: &Options) -> bool {
+pub(crate) fn survey(options: &Options) -> bool {
     let limits = controller_parameters().gait.limits;
     let sequences = on_all_cores(options.seeds as usize, |index| {
         let seed = options.first_seed + index as u64;

@@ -1,8 +1,8 @@
 //! Random streams: a new request from the whole box every few half-steps.
 
-use gait::Verdict;
 use halfstep_tests::random;
 use halfstep_tests::walking::Walking;
+use interface::Verdict;
 use rand::{Rng, rngs::StdRng};
 
 use crate::asked;
@@ -11,7 +11,7 @@ use crate::table::{self, millimetres};
 use crate::watched::Watched;
 
 #[derive(clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// How many streams
     #[arg(long, default_value_t = 20)]
     seeds: u64,
@@ -29,17 +29,17 @@ struct Stream {
     watched: Watched,
 }
 
-pub fn survey(options: &Options) -> bool {
+pub(crate) fn survey(options: &Options) -> bool {
     let streams = on_all_cores(options.seeds as usize, |index| {
         let mut stream = Stream { verdicts: [0; 3], watched: Watched::new(Walking::begin(seed(options, index))) };
         let mut source = Source::new(seed(options, index));
         while stream.watched.fall.is_none() && stream.watched.walking.time() < options.seconds {
-            let request = source.next(stream.watched.report.half_step.index);
+            let request = source.next(stream.watched.report.report.half_step.index);
             stream.watched.tick(request.as_ref());
-            if let Some(answer) = stream.watched.report.answer {
+            if let Some(answer) = stream.watched.report.reply {
                 let verdicts = [Verdict::Accepted, Verdict::Limited, Verdict::Refused];
                 for (count, verdict) in stream.verdicts.iter_mut().zip(verdicts) {
-                    *count += u32::from(answer.admission.verdict == verdict);
+                    *count += u32::from(answer.verdict == verdict);
                 }
             }
         }
@@ -52,7 +52,7 @@ pub fn survey(options: &Options) -> bool {
         .map(|(index, Stream { verdicts, watched })| {
             vec![
                 seed(options, index).to_string(),
-                watched.report.half_step.index.to_string(),
+                watched.report.report.half_step.index.to_string(),
                 verdicts[0].to_string(),
                 verdicts[1].to_string(),
                 verdicts[2].to_string(),
@@ -72,19 +72,19 @@ fn seed(options: &Options, index: usize) -> u64 {
 }
 
 /// Where the requests come from: a new one every 2 to 6 half-steps.
-pub struct Source {
+pub(crate) struct Source {
     random: StdRng,
     next: u64,
 }
 
 impl Source {
     /// The first request comes after two half-steps.
-    pub fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self { random: random(seed), next: 2 }
     }
 
     /// The request of this tick, in the half-step of this index.
-    pub fn next(&mut self, half_step: u64) -> Option<gait::Request> {
+    pub(crate) fn next(&mut self, half_step: u64) -> Option<interface::GaitChange> {
         (half_step >= self.next).then(|| {
             self.next = half_step + self.random.random_range(2..=6);
             asked::any(&mut self.random)

@@ -1,7 +1,7 @@
 //! A table for the terminal.
 
 /// Prints rows under a header, columns aligned to the right.
-pub fn print(header: &[&str], rows: &[Vec<String>]) {
+pub(crate) fn print(header: &[&str], rows: &[Vec<String>]) {
     let header: Vec<String> = header.iter().map(|&name| name.to_owned()).collect();
     let width = |column: usize| {
         std::iter::once(&header).chain(rows).filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max()
@@ -14,6 +14,6 @@ pub fn print(header: &[&str], rows: &[Vec<String>]) {
 }
 
 /// A length in millimetres.
-pub fn millimetres(metres: f64) -> String {
+pub(crate) fn millimetres(metres: f64) -> String {
     format!("{:.1}", metres * 1e3)
 }

@@ -3,7 +3,7 @@
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::{Walking, controller_parameters, plant_parameters};
 use nalgebra::Vector3;
-use plant::{Parameters, Payload, Slope, Unevenness};
+use plant::{Payload, PlantParameters, Slope};
 
 use crate::asked;
 use crate::cores::on_all_cores;
@@ -11,7 +11,7 @@ use crate::table::{self, millimetres};
 use crate::watched::Watched;
 
 #[derive(clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// How long each walk
     #[arg(long, default_value_t = 40.0)]
     seconds: f64,
@@ -20,7 +20,7 @@ pub struct Options {
     seeds: u64,
 }
 
-/// Corners and edges of what must be walked, and its middle: `c` and `α` [deg].
+/// Corners and edges of what must be walked, and its middle: `c` and `α` (deg).
 const COMMANDS: [(f64, f64); 9] = [
     (0.7, -15.0),
     (0.7, 0.0),
@@ -32,17 +32,17 @@ const COMMANDS: [(f64, f64); 9] = [
     (1.3, 0.0),
     (1.3, 15.0),
 ];
-/// When the walk leaves the nominal [s].
+/// When the walk leaves the nominal (s).
 const ENTRY: f64 = 2.0;
 
 /// What is other than believed, for people and for the plant.
 struct Variation {
     name: String,
-    parameters: Parameters,
+    parameters: PlantParameters,
     seed: u64,
 }
 
-pub fn survey(options: &Options) -> bool {
+pub(crate) fn survey(options: &Options) -> bool {
     let (mechanism, controller) = (mechanism(), controller_parameters());
     let variations = variations(options.seeds);
     let walks = on_all_cores(variations.len() * COMMANDS.len(), |index| {
@@ -81,20 +81,19 @@ pub fn survey(options: &Options) -> bool {
 }
 
 fn variations(seeds: u64) -> Vec<Variation> {
-    let vary = |name: &str, change: &dyn Fn(&mut Parameters)| {
+    let vary = |name: &str, change: &dyn Fn(&mut PlantParameters)| {
         let mut parameters = plant_parameters();
         change(&mut parameters);
         Variation { name: name.to_owned(), parameters, seed: 0 }
     };
-    let payload =
-        |place: Vector3<f64>| move |parameters: &mut Parameters| parameters.payload = Payload { mass: 5.0, at: place };
+    let payload = |place: Vector3<f64>| {
+        move |parameters: &mut PlantParameters| parameters.payload = Payload { mass: 5.0, at: place }
+    };
     let slope = |ahead: f64, left: f64| {
         let slope = Slope { ahead: ahead.to_radians(), left: left.to_radians() };
-        move |parameters: &mut Parameters| parameters.slope = slope
+        move |parameters: &mut PlantParameters| parameters.slope = slope
     };
-    let tiles = |height: f64| {
-        move |parameters: &mut Parameters| parameters.unevenness = Unevenness { height, ..Unevenness::default() }
-    };
+    let tiles = |height: f64| move |parameters: &mut PlantParameters| parameters.unevenness.height = height;
     let mut variations = vec![
         vary("nothing", &|_| {}),
         vary("friction 0.5", &|parameters| parameters.contact.friction = 0.5),
@@ -110,7 +109,7 @@ fn variations(seeds: u64) -> Vec<Variation> {
     ];
     variations.extend((0..seeds).map(|seed| Variation {
         name: format!("masses ±5 %, seed {seed}"),
-        parameters: Parameters { mass_error: 0.05, ..plant_parameters() },
+        parameters: PlantParameters { mass_error: 0.05, ..plant_parameters() },
         seed,
     }));
     variations

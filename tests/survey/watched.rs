@@ -2,25 +2,25 @@
 
 use std::fmt;
 
-use controller::{Asked, Intent, Lasting, Mode, Source, TickReport};
-use gait::{Command, Request};
+use controller::Tick;
 use halfstep_tests::walking::Walking;
-use plant::{Measurement, Plant, Setpoint};
+use interface::{Command, GaitChange, Intent, Measurement, Mode, Request, Setpoint, Source};
+use plant::Plant;
 
 use crate::asked;
 
 /// Between swaps: at a swap the ZMP goes from foot to foot.
-pub const BETWEEN_SWAPS: std::ops::Range<f64> = 0.1..0.9;
+pub(crate) const BETWEEN_SWAPS: std::ops::Range<f64> = 0.1..0.9;
 
 /// Controller and plant, and what was seen of them.
-pub struct Watched {
+pub(crate) struct Watched {
     /// They walk here.
     pub walking: Walking,
     /// The last tick's.
-    pub report: TickReport,
-    /// Least measured margin between swaps while walking [m].
+    pub report: Tick,
+    /// Least measured margin between swaps while walking (m).
     pub least_margin: f64,
-    /// Largest feedback angle of the bearing ankle [rad].
+    /// Largest feedback angle of the bearing ankle (rad).
     pub largest_lean: f64,
     /// How it ended, if it did.
     pub fall: Option<Fall>,
@@ -28,8 +28,8 @@ pub struct Watched {
 
 /// A fall.
 #[derive(Clone, Debug)]
-pub struct Fall {
-    /// Since the beginning [s].
+pub(crate) struct Fall {
+    /// Since the beginning (s).
     pub time: f64,
     /// In which half-step.
     pub half_step: u64,
@@ -41,65 +41,65 @@ pub struct Fall {
 
 impl Watched {
     /// Watches from now on.
-    pub fn new(walking: Walking) -> Self {
+    pub(crate) fn new(walking: Walking) -> Self {
         Self::begin_in(walking, Plant::step)
     }
 
     /// The same with the plant moved on by `step`: by another engine, for example.
-    pub fn begin_in(mut walking: Walking, step: impl FnOnce(&mut Plant, &Setpoint) -> Measurement) -> Self {
+    pub(crate) fn begin_in(mut walking: Walking, step: impl FnOnce(&mut Plant, &Setpoint) -> Measurement) -> Self {
         let report = walking.tick_in(None, step);
         Self { walking, report, least_margin: f64::INFINITY, largest_lean: 0.0, fall: None }
     }
 
     /// Forgets how near it came to falling until now.
-    pub fn begin_anew(&mut self) {
+    pub(crate) fn begin_anew(&mut self) {
         self.least_margin = f64::INFINITY;
         self.largest_lean = 0.0;
     }
 
     /// One period, unless it has fallen.
-    pub fn tick(&mut self, request: Option<&Request>) {
+    pub(crate) fn tick(&mut self, request: Option<&GaitChange>) {
         self.tick_in(request, Plant::step);
     }
 
     /// The same with the plant moved on by `step`: by another engine, for example.
-    pub fn tick_in(&mut self, request: Option<&Request>, step: impl FnOnce(&mut Plant, &Setpoint) -> Measurement) {
+    pub(crate) fn tick_in(
+        &mut self,
+        request: Option<&GaitChange>,
+        step: impl FnOnce(&mut Plant, &Setpoint) -> Measurement,
+    ) {
         if self.fall.is_some() {
             return;
         }
-        let asked = request.map(|request| Asked {
-            request: *request,
-            intent: Some(Intent::Walk),
-            source: Source::Console,
-            lasting: Lasting::UntilChanged,
-        });
+        let asked =
+            request.map(|gait| Request { gait: *gait, intent: Some(Intent::Walk), ..Request::new(Source::Console) });
         let report = self.walking.tick_in(asked.as_ref(), step);
         self.report = report;
         if self.walking.has_fallen(&report) {
             self.fall = Some(Fall {
                 time: self.walking.time(),
-                half_step: report.half_step.index,
+                half_step: report.report.half_step.index,
                 command: report.command,
-                mode: report.mode,
+                mode: report.report.mode,
             });
-        } else if report.mode == Mode::Walking && BETWEEN_SWAPS.contains(&report.half_step.progress) {
-            self.least_margin = self.least_margin.min(report.margin);
-            self.largest_lean = self.largest_lean.max(report.lean.amax());
+        } else if report.report.mode == Mode::Walking && BETWEEN_SWAPS.contains(&report.report.half_step.progress) {
+            self.least_margin = self.least_margin.min(report.report.margin.unwrap_or(f64::NEG_INFINITY));
+            self.largest_lean = self.largest_lean.max(report.report.lean.amax());
         }
     }
 
     /// Walks on for so many half-steps, or until it falls.
-    pub fn walk_half_steps(&mut self, half_steps: u64) {
-        let end = self.report.half_step.index + half_steps;
+    pub(crate) fn walk_half_steps(&mut self, half_steps: u64) {
+        let end = self.report.report.half_step.index + half_steps;
         // A walk that stands still does not end by itself.
         let patience = self.walking.time() + 5.0 * half_steps as f64;
-        while self.fall.is_none() && self.report.half_step.index < end && self.walking.time() < patience {
+        while self.fall.is_none() && self.report.report.half_step.index < end && self.walking.time() < patience {
             self.tick(None);
         }
     }
 
     /// Walks on until a time since the beginning, or until it falls.
-    pub fn walk_until(&mut self, seconds: f64) {
+    pub(crate) fn walk_until(&mut self, seconds: f64) {
         while self.fall.is_none() && self.walking.time() < seconds {
             self.tick(None);
         }

@@ -1,4 +1,4 @@
-"""What MuJoCo says of the exported robot: `tests/mujoco_agrees.rs` compares it with our own dynamics.
+"""What MuJoCo says of the exported robot: `tests/python/mujoco_agrees.rs` compares it with our own dynamics.
 
 Reads `{"mjcf": …, "joints": [20 names], "states": [{"angles", "rates", "accelerations"}, …]}` from stdin, with the right
 foot's sole turned by joints 1 (about x) and 2 (about y) on the spot, and prints mass, and per state the torques, the

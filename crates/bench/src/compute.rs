@@ -3,20 +3,22 @@
 //! Everything takes turns in rounds, and the least of the rounds counts. What is shorter than looking at the clock is timed
 //! in batches: its spread is that of the batches' means.
 
+use interface::{GaitChange, Request, Setpoint, Source};
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Duration;
 
-use balance::{GroundSplit, Preview};
-use controller::{Asked, Controller, Lasting, Measurement, Source, TickReport};
+use controller::Controller;
 use dynamics::{ArticulatedBody, Batch, LANES, NewtonEuler, Tree, ZmpJacobian, zmp};
 use gait::{NominalRow, NominalTable, Start, Walk};
 use model::{JointVector, Mechanism, Motion, PerJoint};
 use nalgebra::{Isometry3, Vector3};
-use plant::{Plant, Setpoint};
+use paper::GroundSplit;
+use pattern::PatternGenerator;
+use plant::Plant;
 use runtime::{Scheduling, now_ns};
 
-use crate::{BenchError, Findings, Machine, Over, Ratio, Series};
+use crate::{BenchError, BenchReport, Machine, Ratio, Reduction, Series};
 
 /// What is walked, and how it is measured.
 #[derive(Clone, Debug)]
@@ -28,12 +30,12 @@ pub struct ComputeOptions {
     /// As configured.
     pub controller: controller::Parameters,
     /// As configured.
-    pub plant: plant::Parameters,
+    pub plant: plant::PlantParameters,
     /// How often everything takes turns.
     pub rounds: u32,
     /// How long a turn lasts.
-    pub turn: Duration,
-    /// The control period [s].
+    pub slice: Duration,
+    /// The control period (s).
     pub period: f64,
     /// What is asked of the system; an ordinary thread is enough.
     pub scheduling: Scheduling,
@@ -44,13 +46,13 @@ struct Work<'w> {
     series: Series,
     /// How many calls are timed together.
     batch: u32,
-    /// Does it once and gives the part of the time that counts [ns], or `None` for all of it.
+    /// Does it once and gives the part of the time that counts (ns), or `None` for all of it.
     run: Box<dyn FnMut() -> Option<u64> + 'w>,
 }
 
-/// Simulated time after which the walk begins anew [control periods].
+/// Simulated time after which the walk begins anew (control periods).
 const WALK: u64 = 20_000;
-/// How much of it is timed together where a single period is too short [control periods].
+/// How much of it is timed together where a single period is too short (control periods).
 const PART: usize = 100;
 /// How much of the walk is not timed: caches, and the predictions of branches.
 const WARM_UP: u64 = 2000;
@@ -59,12 +61,12 @@ const WARM_UP: u64 = 2000;
 ///
 /// # Errors
 /// The nominal does not walk.
-pub fn compute(options: &ComputeOptions) -> Result<Findings, BenchError> {
-    let _granted = options.scheduling.ask();
+pub fn compute(options: &ComputeOptions) -> Result<BenchReport, BenchError> {
+    let _granted = options.scheduling.request();
     let mut works = works(options)?;
     for _ in 0..options.rounds {
         for work in &mut works {
-            work.turn(options.turn);
+            work.turn(options.slice);
         }
     }
     let series: Vec<Series> = works.into_iter().map(|work| work.series).collect();
@@ -78,7 +80,7 @@ pub fn compute(options: &ComputeOptions) -> Result<Findings, BenchError> {
     });
     let notes = vec![format!("Each number is the least of {} rounds that take turns.", options.rounds)];
     let machine = Machine::of_this_process();
-    Ok(Findings { what: "compute", machine, series, ratios: ratios.into_iter().collect(), notes })
+    Ok(BenchReport { what: "compute", machine, series, ratios: ratios.into_iter().collect(), notes })
 }
 
 const TICK: &str = "controller tick, walking";
@@ -92,7 +94,7 @@ fn works(options: &ComputeOptions) -> Result<Vec<Work<'static>>, BenchError> {
 
     let (of_tree, mut inverse) = (tree.clone(), NewtonEuler::default());
     let newton_euler = move || {
-        inverse.stand(&of_tree, black_box(&motion));
+        inverse.compute_fixed_base(&of_tree, black_box(&motion));
         black_box(zmp(&inverse.ground));
     };
     let (of_tree, mut batch, mut lane) = (tree.clone(), Batch::default(), 0);
@@ -107,7 +109,7 @@ fn works(options: &ComputeOptions) -> Result<Vec<Work<'static>>, BenchError> {
     };
     let (of_tree, mut jacobian) = (tree.clone(), ZmpJacobian::default());
     let zmp_jacobian = move || {
-        black_box(jacobian.stand(&of_tree, black_box(&motion)));
+        black_box(jacobian.compute_fixed_base(&of_tree, black_box(&motion)));
         black_box(&jacobian);
     };
     let of_row = |row: &NominalRow| GroundSplit { gravity: row.ground_gravity, dynamic: row.ground_dynamic };
@@ -129,7 +131,7 @@ fn works(options: &ComputeOptions) -> Result<Vec<Work<'static>>, BenchError> {
     };
     let walk = Walk::new(nominal.clone(), &mechanism, &controller.gait, Start::default()).map_err(no_walk)?;
     let half_step = nominal.duration;
-    let mut preview = Preview::new(&mechanism, walk.clone());
+    let mut preview = PatternGenerator::walking(&mechanism, walk.clone());
     let plan = move || {
         black_box(preview.advance(black_box(half_step)));
     };
@@ -167,19 +169,18 @@ fn forecast_timed((mut controller, mut plant): (Controller, Plant), period: f64)
     let mut faster = false;
     Work::new("forecast of a request", 1, move || {
         faster = !faster;
-        let request = gait::Request { speed: Some(if faster { 1.05 } else { 0.95 }), ..gait::Request::default() };
-        let (source, lasting) = (Source::Program, Lasting::UntilChanged);
-        controller.ask(&Asked { request, intent: None, source, lasting });
-        let took_ns = controller.inquiry().map(|mut inquiry| {
+        let gait = GaitChange { speed: Some(if faster { 1.05 } else { 0.95 }), ..GaitChange::NONE };
+        controller.submit(&Request { gait, ..Request::new(Source::Program) });
+        let took_ns = controller.take_job().map(|mut job| {
             let began_ns = now_ns();
-            inquiry.settle();
+            job.evaluate();
             let took_ns = now_ns() - began_ns;
-            controller.give_back(inquiry);
+            controller.complete(job);
             took_ns
         });
-        // The answer leaves with a tick.
-        let report = controller.tick(period, Some(&sensed(&plant.measure())));
-        plant.step(&setpoint(&report));
+        // The reply leaves with a tick.
+        let tick = controller.tick(period, Some(&plant.measure()));
+        plant.step(&tick.setpoint);
         took_ns
     })
 }
@@ -199,11 +200,11 @@ fn walk_timed(
             ticks = 0;
         }
         ticks += 1;
-        let measured = sensed(&plant.measure());
+        let measured = plant.measure();
         let began_ns = now_ns();
         let report = controller.tick(period, Some(black_box(&measured)));
         let took_ns = now_ns() - began_ns;
-        plant.step(&setpoint(&report));
+        plant.step(&report.setpoint);
         Some(took_ns)
     };
     let mut work = Work::new(TICK, 1, run);
@@ -235,7 +236,7 @@ fn parts_timed(
         let mut measured = plant.measure();
         let began_ns = now_ns();
         for played in &mut setpoints {
-            *played = setpoint(&controller.tick(period, Some(&sensed(&measured))));
+            *played = controller.tick(period, Some(&measured)).setpoint;
             measured = plant.step(played);
         }
         let together_ns = now_ns();
@@ -249,7 +250,7 @@ fn parts_timed(
 
 impl Work<'static> {
     fn new(name: &str, batch: u32, run: impl FnMut() -> Option<u64> + 'static) -> Self {
-        Self { series: Series::new("compute", name, Over::Minimum), batch, run: Box::new(run) }
+        Self { series: Series::new("compute", name, Reduction::Minimum), batch, run: Box::new(run) }
     }
 
     fn single(name: &str, mut run: impl FnMut() + 'static) -> Self {
@@ -288,20 +289,4 @@ impl Work<'static> {
 fn motion() -> Motion {
     let spread = |size: f64| PerJoint::from_fn(|joint| size * (f64::from(joint.number()) * 0.7).sin());
     Motion { angles: spread(0.5), rates: spread(2.0), accelerations: spread(-10.0) }
-}
-
-fn setpoint(report: &TickReport) -> Setpoint {
-    let controller::Setpoint { angles, rates, feed_forward } = report.setpoint;
-    Setpoint { angles, rates, feed_forward }
-}
-
-fn sensed(measured: &plant::Measurement) -> Measurement {
-    Measurement {
-        tick: measured.sample,
-        angles: measured.angles,
-        rates: measured.rates,
-        feet: measured.feet,
-        orientation: measured.orientation.into_inner(),
-        angular_rate: measured.angular_rate,
-    }
 }

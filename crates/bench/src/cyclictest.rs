@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use crate::{BenchError, Series};
 
-/// Later than this it only counts how often [µs].
+/// Later than this it only counts how often (µs).
 const LATEST_US: u64 = 20_000;
 
 /// Whether it is installed.
@@ -38,7 +38,7 @@ pub fn run(core: usize, priority: u8, period: Duration, periods: u64, series: &m
     if counted == 0 { Err(failed(String::from_utf8_lossy(&output.stderr).trim().to_owned())) } else { Ok(()) }
 }
 
-/// The lateness [µs] and how often it was that late.
+/// The lateness (µs) and how often it was that late.
 fn histogram(told: &str) -> impl Iterator<Item = (u64, u64)> {
     told.lines().filter_map(|line| {
         let mut words = line.split_whitespace();

@@ -11,11 +11,11 @@ use std::process::{Child, ChildStdin, ChildStdout, Stdio};
 use std::time::Duration;
 
 use runtime::{Scheduling, now_ns};
-use wire::{ControllerEnd, Instance, MeasurementMessage, Newest, PlantEnd, SetpointMessage};
+use wire::{ControllerPorts, Instance, Latest, MeasurementMessage, PlantPorts, SetpointMessage};
 
 use crate::raw_iceoryx2::{Blackboards, PubSub, Services};
-use crate::raw_ring::{Plain, Ring};
-use crate::{BenchError, Findings, Machine, Over, Ratio, Series};
+use crate::raw_ring::{Plain, SharedRing};
+use crate::{BenchError, BenchReport, Machine, Ratio, Reduction, Series};
 
 /// How it is measured.
 #[derive(Clone, Copy, Debug)]
@@ -64,13 +64,13 @@ pub fn exchange(
     options: &ExchangeOptions,
     instance: &Instance,
     answering: impl FnOnce() -> std::io::Result<std::process::Command>,
-) -> Result<Findings, BenchError> {
+) -> Result<BenchReport, BenchError> {
     let _leftovers = instance.leftovers();
     let mut ways = asking_ways(instance)?;
     let mut other = Other::start(answering)?;
-    let _granted = options.scheduling[0].ask();
+    let _granted = options.scheduling[0].request();
 
-    let of_group = |group: &str| WAYS.map(|(_, name)| Series::new(group, name, Over::Median));
+    let of_group = |group: &str| WAYS.map(|(_, name)| Series::new(group, name, Reduction::Median));
     let period_us = options.period.as_micros();
     let mut flat_out = of_group("round trip, flat out");
     let mut at_pace = of_group(&format!("round trip every {period_us} µs"));
@@ -85,7 +85,7 @@ pub fn exchange(
             at_pace[way].begin_round();
             time_flat_out(asking, options.trips, &mut flat_out[way])?;
             time_at_pace(asking, options, &mut at_pace[way])?;
-            asking.send(&MeasurementMessage { tick: LAST, ..MeasurementMessage::NOTHING });
+            asking.send(&MeasurementMessage { tick: LAST, ..MeasurementMessage::EMPTY });
             std::thread::sleep(BREATH);
         }
     }
@@ -103,7 +103,7 @@ pub fn exchange(
         size_of::<SetpointMessage>()
     )];
     let series = flat_out.into_iter().chain(at_pace).collect();
-    Ok(Findings { what: "latency", machine: Machine::of_this_process(), series, ratios, notes })
+    Ok(BenchReport { what: "latency", machine: Machine::of_this_process(), series, ratios, notes })
 }
 
 /// Answers on whatever way stdin names, until it ends: the other process of [`exchange`].
@@ -112,9 +112,9 @@ pub fn exchange(
 /// A way cannot be opened.
 pub fn answer(instance: &Instance, scheduling: &Scheduling) -> Result<(), BenchError> {
     let mut ways = answering_ways(instance)?;
-    let _granted = scheduling.ask();
+    let _granted = scheduling.request();
     let broken = |error| BenchError::new("answering", error);
-    let mut setpoint = SetpointMessage { tick: 0, ..SetpointMessage::NOTHING };
+    let mut setpoint = SetpointMessage { tick: 0, ..SetpointMessage::EMPTY };
     let mut stdout = std::io::stdout().lock();
     for name in std::io::stdin().lock().lines() {
         let name = name.map_err(broken)?;
@@ -171,7 +171,7 @@ impl Drop for Other {
 }
 
 fn trip(way: &mut dyn Way<MeasurementMessage, SetpointMessage>, tick: u64) -> Result<(), BenchError> {
-    way.send(&MeasurementMessage { tick, sample: tick, ..MeasurementMessage::NOTHING });
+    way.send(&MeasurementMessage { tick, sample: tick, ..MeasurementMessage::EMPTY });
     let mut looks = 0_u64;
     let mut began = None;
     loop {
@@ -180,7 +180,7 @@ fn trip(way: &mut dyn Way<MeasurementMessage, SetpointMessage>, tick: u64) -> Re
         }
         looks += 1;
         if looks.is_multiple_of(1 << 20) && now_ns() - *began.get_or_insert_with(now_ns) > PATIENCE_NS {
-            return Err(BenchError::new("the process that answers", "it is silent"));
+            return Err(BenchError::new("the process that answers", "no message for too long"));
         }
         spin_loop();
     }
@@ -230,9 +230,9 @@ type Ways<Out, In> = [Box<dyn Way<Out, In>>; 4];
 fn asking_ways(instance: &Instance) -> Result<Ways<MeasurementMessage, SetpointMessage>, BenchError> {
     let services = Services::new(instance.name(), true)?;
     let ring = |error| BenchError::new("a ring", error);
-    let out = Ring::make(&ring_file(instance, "measurement")).map_err(ring)?;
-    let into = Ring::make(&ring_file(instance, "setpoint")).map_err(ring)?;
-    let end = PlantEnd::connect(instance, MECHANISM).map_err(|error| BenchError::new("our services", error))?;
+    let out = SharedRing::make(&ring_file(instance, "measurement")).map_err(ring)?;
+    let into = SharedRing::make(&ring_file(instance, "setpoint")).map_err(ring)?;
+    let end = PlantPorts::connect(instance, MECHANISM).map_err(|error| BenchError::new("our services", error))?;
     Ok([
         Box::new(end),
         Box::new(services.blackboards("board/measurement", "board/setpoint")?),
@@ -245,9 +245,9 @@ fn asking_ways(instance: &Instance) -> Result<Ways<MeasurementMessage, SetpointM
 fn answering_ways(instance: &Instance) -> Result<Ways<SetpointMessage, MeasurementMessage>, BenchError> {
     let services = Services::new(instance.name(), false)?;
     let ring = |error| BenchError::new("a ring", error);
-    let out = Ring::open(&ring_file(instance, "setpoint")).map_err(ring)?;
-    let into = Ring::open(&ring_file(instance, "measurement")).map_err(ring)?;
-    let end = ControllerEnd::connect(instance, MECHANISM).map_err(|error| BenchError::new("our services", error))?;
+    let out = SharedRing::open(&ring_file(instance, "setpoint")).map_err(ring)?;
+    let into = SharedRing::open(&ring_file(instance, "measurement")).map_err(ring)?;
+    let end = ControllerPorts::connect(instance, MECHANISM).map_err(|error| BenchError::new("our services", error))?;
     Ok([
         Box::new(end),
         Box::new(services.blackboards("board/setpoint", "board/measurement")?),
@@ -262,31 +262,31 @@ fn ring_file(instance: &Instance, name: &str) -> PathBuf {
 
 /// A ring each way.
 struct Rings<Out: Plain, In: Plain> {
-    out: Ring<Out>,
-    into: Ring<In>,
+    out: SharedRing<Out>,
+    into: SharedRing<In>,
 }
 
-impl Way<MeasurementMessage, SetpointMessage> for PlantEnd {
+impl Way<MeasurementMessage, SetpointMessage> for PlantPorts {
     fn send(&mut self, message: &MeasurementMessage) {
         self.measurements.write(message);
     }
 
     fn receive(&mut self) -> Option<u64> {
-        self.setpoints.news().map(|message| black_box(message).tick)
+        self.setpoints.take_new().map(|message| black_box(message).tick)
     }
 }
 
-impl Way<SetpointMessage, MeasurementMessage> for ControllerEnd {
+impl Way<SetpointMessage, MeasurementMessage> for ControllerPorts {
     fn send(&mut self, message: &SetpointMessage) {
         self.setpoints.write(message);
     }
 
     fn receive(&mut self) -> Option<u64> {
-        self.measurements.news().map(|message| black_box(message).tick)
+        self.measurements.take_new().map(|message| black_box(message).tick)
     }
 }
 
-impl<Out: Newest, In: Newest> Way<Out, In> for Blackboards<Out, In> {
+impl<Out: Latest, In: Latest> Way<Out, In> for Blackboards<Out, In> {
     fn send(&mut self, message: &Out) {
         Blackboards::send(self, message);
     }
@@ -296,7 +296,7 @@ impl<Out: Newest, In: Newest> Way<Out, In> for Blackboards<Out, In> {
     }
 }
 
-impl<Out: Newest, In: Newest> Way<Out, In> for PubSub<Out, In> {
+impl<Out: Latest, In: Latest> Way<Out, In> for PubSub<Out, In> {
     fn send(&mut self, message: &Out) {
         PubSub::send(self, message);
     }
@@ -306,7 +306,7 @@ impl<Out: Newest, In: Newest> Way<Out, In> for PubSub<Out, In> {
     }
 }
 
-impl<Out: Plain, In: Plain + Newest> Way<Out, In> for Rings<Out, In> {
+impl<Out: Plain, In: Plain + Latest> Way<Out, In> for Rings<Out, In> {
     fn send(&mut self, message: &Out) {
         self.out.write(message);
     }

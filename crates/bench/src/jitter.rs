@@ -11,7 +11,7 @@ use runtime::{Period, Scheduling, Usage, now_ns};
 use rustix::thread::{ClockId, clock_nanosleep_absolute};
 use rustix::time::Timespec;
 
-use crate::{BenchError, Findings, Machine, Over, Ratio, Series, cyclictest};
+use crate::{BenchError, BenchReport, Machine, Ratio, Reduction, Series, cyclictest};
 
 /// How it is measured.
 #[derive(Clone, Copy, Debug)]
@@ -45,9 +45,9 @@ struct Loops {
 ///
 /// # Errors
 /// cyclictest is there and fails.
-pub fn jitter(options: &JitterOptions) -> Result<Findings, BenchError> {
+pub fn jitter(options: &JitterOptions) -> Result<BenchReport, BenchError> {
     // Held for all alike: cyclictest does so, too.
-    let awake = Scheduling { keep_awake: options.scheduling.keep_awake, ..Scheduling::default() }.ask();
+    let awake = Scheduling { keep_awake: options.scheduling.keep_awake, ..Scheduling::default() }.request();
     let with_cyclictest = options.scheduling.priority.is_some() && cyclictest::is_installed();
     let mut notes: Vec<String> = awake.refused.iter().map(ToString::to_string).collect();
     notes.extend(on_core(&options.scheduling, |granted| granted));
@@ -81,12 +81,12 @@ pub fn jitter(options: &JitterOptions) -> Result<Findings, BenchError> {
         .into_iter()
         .flat_map(|(Loops { sleeping, spinning, other, floor, .. }, _)| [sleeping, spinning, other, floor])
         .collect();
-    Ok(Findings { what: "jitter", machine: Machine::of_this_process(), series, ratios, notes })
+    Ok(BenchReport { what: "jitter", machine: Machine::of_this_process(), series, ratios, notes })
 }
 
 impl Loops {
     fn new(group: &str, with_cyclictest: bool) -> Self {
-        let series = |name: &str| Series::new(format!("wake-up, {group}"), name, Over::Median);
+        let series = |name: &str| Series::new(format!("wake-up, {group}"), name, Reduction::Median);
         Self {
             sleeping: series("loop, sleeping"),
             spinning: series("loop, sleeping then spinning"),
@@ -140,7 +140,7 @@ impl Loops {
 fn on_core<T: Send>(scheduling: &Scheduling, work: impl FnOnce(Vec<String>) -> T + Send) -> T {
     std::thread::scope(|threads| {
         let thread = threads.spawn(|| {
-            let granted = scheduling.ask();
+            let granted = scheduling.request();
             work(granted.refused.iter().map(ToString::to_string).collect())
         });
         thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
@@ -153,7 +153,7 @@ fn while_busy<T>(core: Option<usize>, work: impl FnOnce() -> T) -> T {
     std::thread::scope(|threads| {
         if core.is_some() {
             threads.spawn(|| {
-                let _granted = Scheduling { core, ..Scheduling::default() }.ask();
+                let _granted = Scheduling { core, ..Scheduling::default() }.request();
                 let mut number = 1.0_f64;
                 while !over.load(Ordering::Relaxed) {
                     number = black_box(number * 1.000_000_1 + 1e-9);

@@ -1,40 +1,31 @@
-//! How fast it is, beside others in the same run.
+//! Benchmarks of computing time, latency and jitter, each against a reference in the same run.
 //!
-//! * [`compute`]: what a configuration, a step, a tick, a plan cost.
-//! * [`exchange`]: a round trip of measurement and setpoint between two processes, beside iceoryx2 by itself and a ring in
+//! * [`compute`]: inverse dynamics, a step of the plant, a tick of the controller, planning.
+//! * [`exchange`]: a round trip of measurement and setpoint between two processes, against plain iceoryx2 and a ring in
 //!   shared memory.
-//! * [`jitter`]: how late a loop wakes up, beside cyclictest or a bare loop.
+//! * [`control_latency`]: a running controller from outside, from measurement to setpoint and from request to effect.
+//! * [`jitter`]: how late a loop wakes up, against cyclictest or a bare loop.
+//! * [`observed_jitter`]: the controller's loop while it is recorded and observed, against the same loop by itself.
 //!
-//! All of it is measured in rounds that take turns, so that what else the machine does meets everybody alike, and told as
-//! [`Findings`]. Times of a machine say little; what counts are ratios within one run.
+//! All are measured in interleaved rounds, so that other load on the machine affects all alike, and reported as
+//! [`BenchReport`]. Absolute times depend on the machine; the result is in the ratios within one run.
 
 pub mod compute;
+pub mod control_latency;
 pub mod cyclictest;
+mod error;
 pub mod exchange;
-pub mod findings;
+mod histograms;
 pub mod jitter;
 pub mod machine;
+pub mod observed_jitter;
+pub mod page;
 mod raw_iceoryx2;
 mod raw_ring;
+pub mod report;
 pub mod series;
 
-pub use findings::{Findings, Ratio};
+pub use error::BenchError;
 pub use machine::Machine;
-pub use series::{Over, Series};
-
-/// Why something could not be measured.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{what}: {cause}")]
-pub struct BenchError {
-    /// What was tried.
-    pub what: &'static str,
-    /// In the words of whoever refused.
-    pub cause: String,
-}
-
-impl BenchError {
-    /// With the cause in its own words.
-    pub fn new(what: &'static str, cause: impl std::fmt::Display) -> Self {
-        Self { what, cause: cause.to_string() }
-    }
-}
+pub use report::{BenchReport, Ratio};
+pub use series::{Reduction, Series};

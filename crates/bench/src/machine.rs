@@ -1,33 +1,32 @@
-//! The machine that something was measured on.
+//! The machine on which a benchmark runs.
 
-use std::fmt;
-use std::fs;
+use std::{fmt, fs};
 
 use serde::Serialize;
 
-/// What matters of it.
+/// Properties of the machine that affect a benchmark.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Machine {
     /// The processor's name.
     pub processor: String,
-    /// How many cores it has.
+    /// Number of cores.
     pub cores: usize,
     /// The kernel's release.
     pub kernel: String,
-    /// How the kernel preempts, in its own words: `PREEMPT_RT` is the real-time one.
+    /// Preemption model as the kernel reports it: `PREEMPT_RT` is the real-time one.
     pub preemption: String,
-    /// The governor of the processor's clock, or `none` where there is nothing to govern.
+    /// Frequency governor of the processor, or `none` if there is none.
     pub governor: String,
-    /// Whether it is a virtual machine: then the host may take its cores away.
+    /// Whether it is a virtual machine, from which the host may take cores away.
     pub virtualised: bool,
-    /// From what the kernel tells the time.
+    /// The kernel's clock source.
     pub clock: String,
-    /// How much it had to do in the last minute.
+    /// Load average of the last minute.
     pub load: f64,
 }
 
 impl Machine {
-    /// This one.
+    /// The machine of this process.
     pub fn of_this_process() -> Self {
         let cpu = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
         let of_cpu = |key: &str| {
@@ -72,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_is_somewhere() {
+    fn machine_of_this_process_has_name_and_cores() {
         let machine = Machine::of_this_process();
         assert!(machine.cores > 0 && !machine.kernel.is_empty(), "{machine}");
     }

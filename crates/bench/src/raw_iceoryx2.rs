@@ -9,7 +9,7 @@ use iceoryx2::port::writer::{EntryHandleMut, Writer};
 use iceoryx2::prelude::{
     Config, FileName, Node, NodeBuilder, Path, SemanticString, ServiceName, SignalHandlingMode, ZeroCopySend, ipc,
 };
-use wire::{InstanceName, Newest};
+use wire::{InstanceName, Latest};
 
 use crate::BenchError;
 
@@ -23,7 +23,7 @@ pub(crate) struct Services {
 }
 
 /// One end of a message each way over two blackboards with one entry each.
-pub(crate) struct Blackboards<Out: Newest, In: Newest> {
+pub(crate) struct Blackboards<Out: Latest, In: Latest> {
     out: EntryHandleMut<Ipc, u64, Out>,
     into: EntryHandle<Ipc, u64, In>,
     last: BlackboardValue<In>,
@@ -31,7 +31,7 @@ pub(crate) struct Blackboards<Out: Newest, In: Newest> {
 }
 
 /// One end of a message each way by publish–subscribe, newest wins.
-pub(crate) struct PubSub<Out: Newest, In: Newest> {
+pub(crate) struct PubSub<Out: Latest, In: Latest> {
     out: Publisher<Ipc, Out, ()>,
     into: Subscriber<Ipc, In, ()>,
 }
@@ -54,7 +54,7 @@ impl Services {
     }
 
     /// `out` and `into` name the services.
-    pub fn blackboards<Out: Newest, In: Newest>(
+    pub fn blackboards<Out: Latest, In: Latest>(
         &self,
         out: &str,
         into: &str,
@@ -66,25 +66,25 @@ impl Services {
     }
 
     /// `out` and `into` name the services.
-    pub fn pub_sub<Out: Newest, In: Newest>(&self, out: &str, into: &str) -> Result<PubSub<Out, In>, BenchError> {
+    pub fn pub_sub<Out: Latest, In: Latest>(&self, out: &str, into: &str) -> Result<PubSub<Out, In>, BenchError> {
         let out = self.publishing::<Out>(out)?.publisher_builder().create().map_err(failed)?;
         let into = self.publishing::<In>(into)?.subscriber_builder().create().map_err(failed)?;
         Ok(PubSub { out, into })
     }
 
-    fn blackboard<M: Newest>(
+    fn blackboard<M: Latest>(
         &self,
         name: &str,
     ) -> Result<iceoryx2::service::port_factory::blackboard::PortFactory<Ipc, u64>, BenchError> {
         let builder = self.node.service_builder(&name_of(name)?);
         if self.makes {
-            builder.blackboard_creator::<u64>().add(KEY, M::NOTHING).create().map_err(failed)
+            builder.blackboard_creator::<u64>().add(KEY, M::EMPTY).create().map_err(failed)
         } else {
             builder.blackboard_opener::<u64>().open().map_err(failed)
         }
     }
 
-    fn publishing<M: Newest>(
+    fn publishing<M: Latest>(
         &self,
         name: &str,
     ) -> Result<iceoryx2::service::port_factory::publish_subscribe::PortFactory<Ipc, M, ()>, BenchError> {
@@ -102,7 +102,7 @@ fn name_of(name: &str) -> Result<ServiceName, BenchError> {
     ServiceName::new(name).map_err(failed)
 }
 
-impl<Out: Newest, In: Newest> Blackboards<Out, In> {
+impl<Out: Latest, In: Latest> Blackboards<Out, In> {
     pub fn send(&mut self, message: &Out) {
         self.out.update_with_copy(*message);
     }
@@ -116,7 +116,7 @@ impl<Out: Newest, In: Newest> Blackboards<Out, In> {
     }
 }
 
-impl<Out: Newest + ZeroCopySend, In: Newest + ZeroCopySend> PubSub<Out, In> {
+impl<Out: Latest + ZeroCopySend, In: Latest + ZeroCopySend> PubSub<Out, In> {
     pub fn send(&mut self, message: &Out) {
         // In one run nothing of this can fail after it succeeded once; a message that is lost is noticed by its answer.
         if let Ok(sample) = self.out.loan_uninit() {

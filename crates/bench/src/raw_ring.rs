@@ -3,11 +3,10 @@
 //! One side writes, the other reads; each slot has the number of its message, which is written last.
 
 use std::fs::{File, OpenOptions};
-use std::io;
 use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
-use std::ptr;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::{io, ptr};
 
 use rustix::mm::{MapFlags, ProtFlags, mmap, munmap};
 
@@ -18,7 +17,7 @@ impl Plain for wire::MeasurementMessage {}
 impl Plain for wire::SetpointMessage {}
 
 /// One end of a ring of messages `M`.
-pub(crate) struct Ring<M: Plain> {
+pub(crate) struct SharedRing<M: Plain> {
     slots: *mut Slot<M>,
     next: u64,
     /// Whoever made the file removes it.
@@ -35,7 +34,7 @@ struct Slot<M> {
 /// As few as can be: one message is under way at a time, and what stays in a cache is faster.
 const SLOTS: u64 = 2;
 
-impl<M: Plain> Ring<M> {
+impl<M: Plain> SharedRing<M> {
     /// A new ring, all zeros, in a file that must not be there yet; removed when dropped.
     pub fn make(path: &Path) -> io::Result<Self> {
         let file = OpenOptions::new().read(true).write(true).create_new(true).open(path)?;
@@ -92,7 +91,7 @@ impl<M: Plain> Ring<M> {
     }
 }
 
-impl<M: Plain> Drop for Ring<M> {
+impl<M: Plain> Drop for SharedRing<M> {
     fn drop(&mut self) {
         // SAFETY: mapped in `map` with this length, and never used again.
         let _ = unsafe { munmap(self.slots.cast(), Self::length()) };
@@ -104,18 +103,18 @@ impl<M: Plain> Drop for Ring<M> {
 
 #[cfg(test)]
 mod tests {
-    use wire::{Newest, SetpointMessage};
+    use wire::{Latest, SetpointMessage};
 
     use super::*;
 
     #[test]
     fn what_is_written_is_read_once_and_in_order() {
         let path = std::env::temp_dir().join(format!("halfstep-ring-{}", std::process::id()));
-        let mut writer = Ring::make(&path).unwrap();
-        let mut reader = Ring::<SetpointMessage>::open(&path).unwrap();
+        let mut writer = SharedRing::make(&path).unwrap();
+        let mut reader = SharedRing::<SetpointMessage>::open(&path).unwrap();
         assert!(reader.read().is_none());
         for tick in 0..3 * SLOTS {
-            writer.write(&SetpointMessage { tick, ..SetpointMessage::NOTHING });
+            writer.write(&SetpointMessage { tick, ..SetpointMessage::EMPTY });
             assert_eq!(reader.read().map(|message| message.tick), Some(tick));
             assert!(reader.read().is_none());
         }

@@ -1,35 +1,35 @@
-//! A series: the times of one thing, in rounds.
+//! A series: the times of one measured quantity, in rounds.
 
 use hdrhistogram::Histogram;
 
-/// Times of one thing.
+/// The times of one measured quantity.
 #[derive(Clone, Debug)]
 pub struct Series {
     /// What was timed.
     pub name: String,
-    /// In which picture it is shown, beside others.
+    /// Group of series that are shown in one picture.
     pub group: String,
-    over: Over,
-    /// [ps]
+    over: Reduction,
+    /// Times of each round (ps).
     rounds: Vec<Histogram<u64>>,
 }
 
-/// How a number comes from the rounds.
+/// How the numbers of the rounds are reduced to one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Over {
-    /// The least: the machine only ever adds to what is computed.
+pub enum Reduction {
+    /// The minimum: disturbances only ever lengthen a computation.
     Minimum,
-    /// The middle one: of what depends on the machine.
+    /// The median: for times that depend on the machine.
     Median,
 }
 
-/// Nothing that is timed here takes longer [ps].
+/// Longer times are recorded as this (ps).
 const LONGEST: u64 = 10_000_000_000_000;
 const PER_NS: f64 = 1000.0;
 
 impl Series {
-    /// Empty.
-    pub fn new(group: impl Into<String>, name: impl Into<String>, over: Over) -> Self {
+    /// A series without any round.
+    pub fn new(group: impl Into<String>, name: impl Into<String>, over: Reduction) -> Self {
         Self { name: name.into(), group: group.into(), over, rounds: Vec::new() }
     }
 
@@ -38,46 +38,46 @@ impl Series {
         self.rounds.push(Histogram::new_with_bounds(1, LONGEST, 3).expect("three digits of ten seconds"));
     }
 
-    /// Adds a time to the round [ns]. Does not allocate.
+    /// Adds a time to the current round (ns). Does not allocate.
     pub fn add(&mut self, ns: f64) {
         if let Some(round) = self.rounds.last_mut() {
             round.saturating_record((ns * PER_NS) as u64);
         }
     }
 
-    /// How many times there are in all rounds.
+    /// Number of times in all rounds.
     pub fn count(&self) -> u64 {
         self.rounds.iter().map(Histogram::len).sum()
     }
 
-    /// The time that a share `quantile` of the times does not exceed [ns]: the minimum or the median over the rounds. NaN
-    /// when nothing was timed.
+    /// The time that a share `quantile` of the times does not exceed (ns): the minimum or the median over the rounds. NaN
+    /// if nothing was measured.
     pub fn quantile(&self, quantile: f64) -> f64 {
         self.over_rounds(|round| round.value_at_quantile(quantile) as f64 / PER_NS)
     }
 
-    /// Of each round, beginning with the first [ns].
+    /// The quantile of each round, beginning with the first (ns).
     pub fn quantile_of_rounds(&self, quantile: f64) -> Vec<f64> {
         self.full().map(|round| round.value_at_quantile(quantile) as f64 / PER_NS).collect()
     }
 
-    /// How many times as long as another this is: round by round where both took turns, since what disturbs the one disturbs
-    /// the other, and the median of that; the ratio of what counts where that is the least of all.
+    /// Ratio of this series to another: the median of the rounds' ratios, since a disturbance in a round affects both; for
+    /// minima the ratio of the two minima.
     pub fn times(&self, other: &Self, quantile: f64) -> f64 {
         let [ours, theirs] = [self, other].map(|series| series.quantile_of_rounds(quantile));
-        if self.over == Over::Minimum || ours.len() != theirs.len() {
+        if self.over == Reduction::Minimum || ours.len() != theirs.len() {
             return self.quantile(quantile) / other.quantile(quantile);
         }
         median(ours.iter().zip(theirs).map(|(ours, theirs)| ours / theirs).collect())
     }
 
-    /// The longest time of all [ns].
+    /// The longest time of all (ns).
     pub fn max(&self) -> f64 {
         self.full().map(|round| round.max() as f64 / PER_NS).fold(f64::NAN, f64::max)
     }
 
-    /// How the times of all rounds are spread: so many bins whose widths are equal on a logarithmic scale, each with its
-    /// upper edge [ns] and the share of the times in it.
+    /// Histogram of the times of all rounds: bins of equal width on a logarithmic scale, each with its upper edge (ns) and the
+    /// share of the times in it.
     pub fn spread(&self, least_ns: f64, greatest_ns: f64, bins: usize) -> Vec<(f64, f64)> {
         let mut shares = vec![0.0; bins];
         let (from, to) = (least_ns.ln(), greatest_ns.ln());
@@ -100,13 +100,13 @@ impl Series {
     fn over_rounds(&self, of: impl Fn(&Histogram<u64>) -> f64) -> f64 {
         let values: Vec<f64> = self.full().map(of).collect();
         match self.over {
-            Over::Minimum => values.into_iter().fold(f64::NAN, f64::min),
-            Over::Median => median(values),
+            Reduction::Minimum => values.into_iter().fold(f64::NAN, f64::min),
+            Reduction::Median => median(values),
         }
     }
 }
 
-/// The middle one, or between the two in the middle; NaN of nothing.
+/// The median; NaN of nothing.
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     match values.len() {
@@ -119,7 +119,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 mod tests {
     use super::*;
 
-    fn series(over: Over) -> Series {
+    fn series(over: Reduction) -> Series {
         let mut series = Series::new("group", "name", over);
         for of_round in [10.0, 30.0, 20.0, 90.0] {
             series.begin_round();
@@ -128,11 +128,11 @@ mod tests {
         series
     }
 
-    /// In the second round the machine was busy with something else.
+    /// In the second round the machine was busy otherwise.
     #[test]
-    fn what_disturbs_both_disturbs_no_ratio() {
+    fn disturbance_of_a_round_does_not_change_the_ratio_of_two_series() {
         let series = |rounds: [f64; 3]| {
-            let mut series = Series::new("group", "name", Over::Median);
+            let mut series = Series::new("group", "name", Reduction::Median);
             for ns in rounds {
                 series.begin_round();
                 series.add(ns);
@@ -144,18 +144,18 @@ mod tests {
     }
 
     #[test]
-    fn the_rounds_are_told_by_their_least_or_their_middle() {
+    fn rounds_are_reduced_to_their_minimum_or_median() {
         let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-3;
-        assert!(close(series(Over::Minimum).quantile(0.5), 10.0));
-        assert!(close(series(Over::Median).quantile(0.5), 25.0), "between 20 and 30");
-        assert!(close(series(Over::Median).max(), 90.0));
-        assert_eq!(series(Over::Median).count(), 4000);
-        assert!(Series::new("", "", Over::Median).quantile(0.5).is_nan());
+        assert!(close(series(Reduction::Minimum).quantile(0.5), 10.0));
+        assert!(close(series(Reduction::Median).quantile(0.5), 25.0), "between 20 and 30");
+        assert!(close(series(Reduction::Median).max(), 90.0));
+        assert_eq!(series(Reduction::Median).count(), 4000);
+        assert!(Series::new("", "", Reduction::Median).quantile(0.5).is_nan());
     }
 
     #[test]
-    fn the_spread_is_all_there_is() {
-        let spread = series(Over::Median).spread(1.0, 50.0, 40);
+    fn histogram_of_a_series_has_all_times() {
+        let spread = series(Reduction::Median).spread(1.0, 50.0, 40);
         assert!((spread.iter().map(|(_, share)| share).sum::<f64>() - 1.0).abs() < 1e-12);
         assert_eq!(spread.last().unwrap().1, 0.25, "what is longer is in the last bin");
         assert!((spread.last().unwrap().0 - 50.0).abs() < 1e-9);

@@ -1,56 +1,29 @@
-//! What people type: the commands of `halfstep`.
+//! The command line of `halfstep`: what users type and read.
 //!
-//! One command per file in [`command`]; the two loops are [`run_controller`] and [`run_plant`]. The crates that these tie
-//! together do not know each other: what one says is put into the other's words in [`exchange`].
+//! One command per file in `command`: its options, and what it prints. The crates below do the work. `process` runs other
+//! `halfstep` processes, `error` and `status` are how a command ends, `output` prints and writes.
 
-pub mod advisor;
-pub mod bench_page;
-pub mod clerk;
-pub mod command;
-pub mod configuration;
-pub mod engine;
-pub mod exchange;
-pub mod failure;
-pub mod html;
-pub mod import;
-pub mod in_command;
-pub mod inbox;
-pub mod interrupt;
-pub mod loop_times;
-pub mod mjcf;
-pub mod operator;
-pub mod paper;
-pub mod picture;
-pub mod process;
-pub mod progress;
-pub mod python_messages;
-pub mod realtime;
-pub mod record;
-pub mod replay;
-pub mod run_controller;
-pub mod run_log;
-pub mod run_plant;
-pub mod script;
-pub mod summary;
-pub mod turns;
-pub mod urdf;
-pub mod voice;
-pub mod watched;
-pub mod words;
+mod command;
+mod error;
+mod output;
+mod process;
+mod progress;
+mod status;
+mod walk_summary;
 
 use std::process::ExitCode;
 
 use clap::Parser;
 use tracing_subscriber::EnvFilter;
 
-/// Does what the command line says. The whole program: `main` is nothing else.
+/// Runs the command line: the whole program, which `main` calls.
 ///
-/// Exit codes: 0 it is fine, 1 it failed or the robot fell, 2 the command line or an input file is wrong.
+/// Exit codes: 0 success, 1 failure or a fall of the robot, 2 the command line or an input file is wrong.
 pub fn run() -> ExitCode {
     let halfstep = match command::Halfstep::try_parse() {
         Ok(halfstep) => halfstep,
         Err(error) => {
-            // Nobody is left to tell when even this cannot be written.
+            // If even this cannot be written, nobody reads it.
             let _ = error.print();
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
@@ -58,10 +31,10 @@ pub fn run() -> ExitCode {
     let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("warn"));
     tracing_subscriber::fmt().with_writer(std::io::stderr).with_env_filter(filter).init();
     match halfstep.run() {
-        Ok(outcome) => outcome.into(),
-        Err(failure) => {
-            eprintln!("{failure}");
-            failure.exit_code()
+        Ok(status) => status.into(),
+        Err(error) => {
+            eprintln!("{error}");
+            error.exit_code()
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Processes that belong to this one: they say how they did at their end, and do not outlive it.
+//! Child processes: they print a summary at their end, and do not outlive this process.
 
 use std::ffi::OsString;
 use std::io::Read;
@@ -9,13 +9,13 @@ use runtime::now_ns;
 use rustix::process::{Pid, Signal};
 use serde::de::DeserializeOwned;
 
-use crate::failure::Failure;
+use crate::error::CliError;
 
 /// How long a process may take to end after it was asked to.
-const PATIENCE: Duration = Duration::from_secs(3);
-const GLANCE: Duration = Duration::from_millis(5);
+const END_TIMEOUT: Duration = Duration::from_secs(3);
+const POLL_INTERVAL: Duration = Duration::from_millis(5);
 
-/// A `halfstep` process started by this one. It is ended when dropped.
+/// A `halfstep` process started by this one. Dropping it ends the process.
 #[derive(Debug)]
 pub struct Process {
     role: &'static str,
@@ -23,12 +23,12 @@ pub struct Process {
 }
 
 impl Process {
-    /// Starts `halfstep <role> <arguments>` such that it ends with this process, and tells its summary as JSON.
+    /// Starts `halfstep <role> <arguments>` such that it ends with this process, and prints its summary as JSON.
     ///
     /// # Errors
-    /// The system refuses.
-    pub fn start(role: &'static str, arguments: impl IntoIterator<Item = OsString>) -> Result<Self, Failure> {
-        let cannot = |error| Failure::new(format!("cannot start the {role}: {error}"));
+    /// The operating system refuses.
+    pub fn start(role: &'static str, arguments: impl IntoIterator<Item = OsString>) -> Result<Self, CliError> {
+        let cannot = |error| CliError::new(format!("cannot start the {role}: {error}"));
         let child = Command::new(std::env::current_exe().map_err(cannot)?)
             .arg(role)
             .args(arguments)
@@ -41,77 +41,77 @@ impl Process {
         Ok(Self { role, child })
     }
 
-    /// Whether it has ended.
+    /// Whether the process has ended.
     ///
     /// # Errors
-    /// The system does not know.
-    pub fn has_ended(&mut self) -> Result<bool, Failure> {
+    /// The operating system does not know.
+    pub fn has_ended(&mut self) -> Result<bool, CliError> {
         Ok(self.status()?.is_some())
     }
 
-    /// Asks it to end.
+    /// Asks the process to end.
     pub fn end(&mut self) {
         if let Ok(None) = self.child.try_wait() {
-            // If it has just ended by itself that is as well.
+            // It may just have ended by itself.
             let _ = rustix::process::kill_process(Pid::from_child(&self.child), Signal::TERM);
         }
     }
 
-    /// Waits up to `patience` for it to end by itself, then asks it to, and gives what it told.
+    /// Waits up to `timeout` for the process to end by itself, then asks it to end. Returns its summary.
     ///
     /// # Errors
-    /// It failed; it has told the person why.
-    pub fn finish<T: DeserializeOwned>(mut self, patience: Duration) -> Result<T, Failure> {
-        if self.wait(patience)?.is_none() {
+    /// The process failed; it has printed why.
+    pub fn finish<T: DeserializeOwned>(mut self, timeout: Duration) -> Result<T, CliError> {
+        if self.wait(timeout)?.is_none() {
             self.end();
         }
         let role = self.role;
-        let Some(status) = self.wait(PATIENCE)? else {
-            return Err(Failure::new(format!("the {role} does not end")));
+        let Some(status) = self.wait(END_TIMEOUT)? else {
+            return Err(CliError::new(format!("the {role} does not end")));
         };
-        let mut told = String::new();
+        let mut summary = String::new();
         if let Some(mut stdout) = self.child.stdout.take() {
             stdout
-                .read_to_string(&mut told)
-                .map_err(|error| Failure::new(format!("the {role} is unclear: {error}")))?;
+                .read_to_string(&mut summary)
+                .map_err(|error| CliError::new(format!("the {role} is unclear: {error}")))?;
         }
-        serde_json::from_str(&told).map_err(|_| Failure::new(format!("the {role} failed ({status})")))
+        serde_json::from_str(&summary).map_err(|_| CliError::new(format!("the {role} failed ({status})")))
     }
 
-    fn wait(&mut self, patience: Duration) -> Result<Option<ExitStatus>, Failure> {
+    fn wait(&mut self, timeout: Duration) -> Result<Option<ExitStatus>, CliError> {
         let began = now_ns();
         loop {
             let status = self.status()?;
-            if status.is_some() || Duration::from_nanos(now_ns() - began) > patience {
+            if status.is_some() || Duration::from_nanos(now_ns() - began) > timeout {
                 return Ok(status);
             }
-            std::thread::sleep(GLANCE);
+            std::thread::sleep(POLL_INTERVAL);
         }
     }
 
-    fn status(&mut self) -> Result<Option<ExitStatus>, Failure> {
-        self.child.try_wait().map_err(|error| Failure::new(format!("the {} is lost: {error}", self.role)))
+    fn status(&mut self) -> Result<Option<ExitStatus>, CliError> {
+        self.child.try_wait().map_err(|error| CliError::new(format!("the {} is lost: {error}", self.role)))
     }
 }
 
 impl Drop for Process {
     fn drop(&mut self) {
         self.end();
-        if let Ok(None) | Err(_) = self.wait(PATIENCE) {
-            // It was asked; nothing more can be done if even this fails.
+        if let Ok(None) | Err(_) = self.wait(END_TIMEOUT) {
+            // It was asked to end; if even this fails nothing more can be done.
             let _ = self.child.kill();
             let _ = self.child.wait();
         }
     }
 }
 
-/// Makes this process end when the process `parent`, which started it, does.
+/// Makes this process end when the process `parent`, which started it, ends.
 ///
 /// # Errors
-/// The parent is gone already, or the system refuses.
-pub fn end_with_parent(parent: u32) -> Result<(), Failure> {
+/// The parent has ended already, or the operating system refuses.
+pub fn end_with_parent(parent: u32) -> Result<(), CliError> {
     rustix::process::set_parent_process_death_signal(Some(Signal::TERM))
-        .map_err(|error| Failure::new(format!("cannot bind this process to its parent: {error}")))?;
+        .map_err(|error| CliError::new(format!("cannot bind this process to its parent: {error}")))?;
     let is_there = rustix::process::getppid().is_some_and(|pid| pid.as_raw_nonzero().get() as u32 == parent);
-    if is_there { Ok(()) } else { Err(Failure::new("the process that started this one is gone")) }
+    if is_there { Ok(()) } else { Err(CliError::new("the process that started this one is gone")) }
 }

@@ -1,35 +1,35 @@
 //! The progress of a walk, on a terminal.
 
 use indicatif::{ProgressBar, ProgressStyle};
+use interface::Report;
 use runtime::Rate;
-use wire::Report;
 
-/// A line that follows the walk; nothing if stderr is no terminal.
+/// A line on the terminal that shows the state of the walk; nothing if stderr is no terminal.
 pub struct Progress {
     bar: ProgressBar,
     rate: Rate,
 }
 
 impl Progress {
-    /// For a walk of so many ticks, or without end.
+    /// The progress of a walk that takes so many ticks, or has no end.
     pub fn new(ticks: Option<u64>, rate: Rate) -> Self {
         let (bar, template) = match ticks {
             Some(ticks) => (ProgressBar::new(ticks), "{bar:20} {msg}"),
             None => (ProgressBar::no_length(), "{spinner} {msg}"),
         };
-        // The templates are constant and right.
+        // The templates are constants and valid.
         let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
         Self { bar: bar.with_style(style), rate }
     }
 
     /// Shows where the walk is.
-    pub fn show(&self, report: &Report) {
+    pub fn show(&self, tick: u64, report: &Report) {
         let margin = report.margin.map_or("   –".to_owned(), |margin| format!("{:4.0}", margin * 1e3));
-        self.bar.set_position(report.tick + 1);
+        self.bar.set_position(tick + 1);
         self.bar.set_message(format!(
             "{:6.1} s  half-step {:3}  speed {:.2}  turn {:+5.1}°  extension {:+5.1}°  margin {margin} mm  {}",
-            (report.tick + 1) as f64 * self.rate.period_s(),
-            report.half_step,
+            (tick + 1) as f64 * self.rate.period_s(),
+            report.half_step.index,
             report.speed,
             report.turn.to_degrees(),
             report.extension.to_degrees(),
@@ -37,8 +37,8 @@ impl Progress {
         ));
     }
 
-    /// Says something above the line.
-    pub fn say(&self, text: &str) {
+    /// Prints a message above the line.
+    pub fn print(&self, text: &str) {
         self.bar.suspend(|| eprintln!("{text}"));
     }
 }

@@ -1,62 +1,62 @@
-//! The controller: one tick, read from top to bottom. Requests come by `requests.rs`.
+//! The controller: one tick, read from top to bottom.
 
 use std::sync::Arc;
 
-use balance::preview::{Forecaster, Gate, Stance};
-use balance::{Balance, CentreOfMass, Feedback, Ground, Landing, Plan, Preview, Sensed, ZmpEstimator};
-use dynamics::{Kinematics, Tree};
+use dynamics::{Kinematics, ReferenceDynamics, Tree};
 use gait::{NominalTable, Start, Walk, WalkError};
-use model::{Mechanism, Motion, Side};
+use interface::{
+    AddedAngles, Fault, Faults, Intent, Measurement, Mode, Reason, Reply, Report, Request, Setpoint, Verdict,
+};
+use model::{ComState, Mechanism, Motion};
 use nalgebra::Vector2;
-
-use crate::mode::{Holding, Rising};
-use crate::watch::Watch;
-use crate::{
-    AddedAngles, Answer, Desk, Fault, Faults, Guard, Inquiry, Intent, Measurement, Mode, Parameters, Pattern, Setpoint,
-    Sources, TickReport,
+use pattern::{FeasibilityCheck, PatternGenerator, Stance};
+use stabilizer::{
+    BalanceState, ContactEstimate, DcmFeedback, LandingCompliance, SupportFrameMeasurement, ZmpEstimator, estimate_com,
 };
 
-/// With the measured ZMP so far inside a sole, all of it is on the ground [m].
+use crate::admission::Admission;
+use crate::admission_job::{AdmissionJob, Decision};
+use crate::command_arbiter::CommandArbiter;
+use crate::joint_limiter::JointLimiter;
+use crate::measurement_validator::MeasurementValidator;
+use crate::operating_state::OperatingState;
+use crate::parameters::Parameters;
+use crate::pattern::{Pattern, goal_of};
+use crate::recovery::Recovery;
+use crate::report::{Tick, added_angles, to_physical};
+
+/// With the measured ZMP this far inside a sole (m), the whole sole is on the ground.
 const FLAT_MARGIN: f64 = 0.005;
-/// How long before and after a swap the weight may go from foot to foot [s].
-const SWAP: f64 = 0.03;
-/// A walk that is slower counts as this fast [-].
+/// Time before and after a support change in which the weight may move from foot to foot (s).
+const SUPPORT_CHANGE: f64 = 0.03;
+/// Least speed factor by which [`SUPPORT_CHANGE`] is measured.
 const SPEED_MIN: f64 = 0.1;
 
-/// The state of the controller. Everything is made in [`Controller::new`]; a tick allocates nothing.
+/// The state of the controller. Everything is allocated in [`Controller::new`]; a tick allocates nothing.
 #[derive(Clone, Debug)]
 pub struct Controller {
     mechanism: Mechanism,
     tree: Tree,
-    pub(crate) pattern: Pattern,
-    /// The stand to get back to after a fall.
-    pub(crate) rest: Box<Preview>,
-    watch: Watch,
+    state: OperatingState,
+    arbiter: CommandArbiter,
+    admission: Admission,
+    pattern: Pattern,
+    /// The stand to return to after a fall.
+    rest: Box<PatternGenerator>,
+    validator: MeasurementValidator,
     kinematics: Kinematics,
     zmp_estimator: ZmpEstimator,
-    ground: Ground,
-    plan: Plan,
-    feedback: Feedback,
-    landing: Landing,
-    /// How the robot is turned beyond the plan, about x and y of support coordinates, when last sensed [rad].
+    contact: ContactEstimate,
+    /// Rotation of the robot beyond the plan about x and y of support coordinates, as last measured (rad).
     tilt: Vector2<f64>,
-    pub(crate) guard: Guard,
-    /// What is intended.
-    pub(crate) intent: Intent,
-    /// What keeps the robot from going on until a reset.
-    pub(crate) latched: Option<Fault>,
-    /// The stop of a pattern that cannot stand by itself.
-    pub(crate) holding: Option<Holding>,
-    /// The way back to a stand.
-    pub(crate) rising: Option<Rising>,
-    pub(crate) sources: Sources,
-    pub(crate) desk: Desk,
-    /// Waits for the tick's report.
-    pub(crate) answer: Option<Answer>,
+    reference: ReferenceDynamics,
+    feedback: DcmFeedback,
+    landing: LandingCompliance,
+    limiter: JointLimiter,
 }
 
 impl Controller {
-    /// A controller that is about to begin its first half-step, with everything checked that could go wrong later.
+    /// A controller at the beginning of its first half-step. Everything that could go wrong later is checked here.
     ///
     /// # Errors
     /// See [`WalkError`].
@@ -67,15 +67,12 @@ impl Controller {
         start: Start,
     ) -> Result<Self, WalkError> {
         let walk = Walk::new(table, mechanism, &parameters.gait, start)?;
-        Ok(Self::with_pattern(
-            mechanism,
-            parameters,
-            &walk,
-            Pattern::new(mechanism, walk.clone(), parameters.compensation),
-        ))
+        let pattern = Pattern::new(mechanism, walk.clone(), parameters.compensation);
+        Ok(Self::with_pattern(mechanism, parameters, &walk, pattern, Intent::Walk))
     }
 
-    /// A controller of a robot that stands with its feet side by side and walks when asked to. Needs the preview.
+    /// A controller of a robot that stands with its feet side by side and walks when requested to. Its gait is planned,
+    /// whatever the parameters say about compensation.
     ///
     /// # Errors
     /// See [`WalkError`].
@@ -86,268 +83,354 @@ impl Controller {
         start: Start,
     ) -> Result<Self, WalkError> {
         let walk = Walk::new(table, mechanism, &parameters.gait, start)?;
-        let preview = Box::new(Preview::standing(mechanism, walk.clone()));
-        let controller = Self::with_pattern(mechanism, parameters, &walk, Pattern::Preview(preview));
-        Ok(Self { intent: Intent::Stop, ..controller })
+        let pattern = Pattern::Planned(Box::new(PatternGenerator::standing(mechanism, walk.clone())));
+        Ok(Self::with_pattern(mechanism, parameters, &walk, pattern, Intent::Stop))
     }
 
-    fn with_pattern(mechanism: &Mechanism, parameters: &Parameters, walk: &Walk, pattern: Pattern) -> Self {
+    fn with_pattern(
+        mechanism: &Mechanism,
+        parameters: &Parameters,
+        walk: &Walk,
+        pattern: Pattern,
+        intent: Intent,
+    ) -> Self {
         let tree = Tree::new(mechanism);
-        let mut plan = Plan::new(mechanism, &tree, walk.mirror());
-        plan.update(&tree, walk.mirror(), &pattern.motion(), pattern.weight_on_bearing() < 1.0);
-        let first = match pattern.half_step().support {
-            Side::Right => pattern.motion().angles,
-            Side::Left => walk.mirror().apply(&pattern.motion().angles),
-        };
-        let rest = Box::new(Preview::standing(mechanism, walk.clone()));
-        let forecaster = Forecaster::new(mechanism, plan.clone(), parameters.forecast);
+        let gait = pattern.gait();
+        let mut reference = ReferenceDynamics::new(mechanism, &tree, walk.mirror());
+        reference.update(&tree, walk.mirror(), &gait.motion(), gait.in_double_support());
+        let first = walk.mirror().to_physical(gait.half_step().support, &gait.motion().angles);
+        let rest = Box::new(PatternGenerator::standing(mechanism, walk.clone()));
+        let check = FeasibilityCheck::new(mechanism, reference.clone(), parameters.feasibility);
         Self {
-            watch: Watch::new(mechanism, parameters.watch),
+            state: OperatingState::new(intent),
+            arbiter: CommandArbiter::new(parameters.arbiter),
+            admission: Admission::new(AdmissionJob::new(check, &rest)),
+            validator: MeasurementValidator::new(mechanism, parameters.validator),
             kinematics: Kinematics::default(),
-            zmp_estimator: ZmpEstimator::new(mechanism, parameters.balance.zmp),
-            ground: Ground { zmp: None, margin: f64::NEG_INFINITY, loads: [0.0; 2], bears: [false; 2] },
-            feedback: Feedback::new(mechanism, parameters.balance.feedback),
-            landing: Landing::new(mechanism, parameters.balance.landing),
+            zmp_estimator: ZmpEstimator::new(mechanism, parameters.stabilizer.zmp),
+            contact: ContactEstimate::AIRBORNE,
             tilt: Vector2::zeros(),
-            guard: Guard::new(mechanism, &first),
-            desk: Desk::Free(Box::new(Inquiry::new(forecaster, &rest))),
+            feedback: DcmFeedback::new(mechanism, parameters.stabilizer.feedback),
+            landing: LandingCompliance::new(mechanism, parameters.stabilizer.landing),
+            limiter: JointLimiter::new(mechanism, &first),
             rest,
-            intent: Intent::Walk,
-            latched: None,
-            holding: None,
-            rising: None,
-            sources: Sources::new(parameters.sources),
-            answer: None,
             mechanism: mechanism.clone(),
             tree,
             pattern,
-            plan,
+            reference,
         }
     }
 
-    /// One period.
+    /// One control period.
     ///
-    /// * `dt` – its length [s]
-    /// * `measurement` – the newest one, if a new one came since the last tick
-    pub fn tick(&mut self, dt: f64, measurement: Option<&Measurement>) -> TickReport {
+    /// * `dt` – its length (s)
+    /// * `measurement` – the newest one, if a new one arrived since the last tick
+    pub fn tick(&mut self, dt: f64, measurement: Option<&Measurement>) -> Tick {
         let mut faults = Faults::default();
 
-        // Is anybody there?
-        if self.sources.advance(dt).is_some() && self.is_on_its_way() {
+        // Does the source in control still send?
+        if self.arbiter.advance(dt).is_some() && self.state.intent().steps() {
             self.stop(Stance::Parallel);
         }
 
-        // Where are we?
-        let centre_of_mass = self.estimate(measurement, dt, &mut faults);
+        // Where is the robot? A measurement answers the setpoint of the tick before: `reference` is still that one's.
+        let com_measured = self.estimate(measurement, dt, &mut faults);
 
-        // What does balance ask for?
-        let is_planned = self.is_planned();
-        if !is_planned {
-            self.feedback.release();
-        }
-        let known = centre_of_mass.filter(|_| is_planned);
-        let on_both_feet = self.pattern.weight_on_bearing() < 1.0;
-        let zmp = self.ground.zmp.filter(|_| self.ground.bears == [true, false] && !self.is_at_swap());
-        let sensed = known.map(|centre_of_mass| Balance { centre_of_mass, tilt: self.tilt, zmp });
-        self.feedback.update(&self.plan.balance(), sensed.as_ref(), on_both_feet, dt);
+        // What does balance command?
+        self.balance(com_measured, dt);
 
-        // On both feet the weight goes to and fro as the robot comes to rest.
-        let yields = !on_both_feet && !self.is_at_swap() && !self.feedback.is_in_trouble();
-        let loads = known.filter(|_| yields).map(|_| self.ground.loads);
-        self.landing.update(loads, dt);
-        self.pattern.sense_tilt(if known.is_some() && !on_both_feet { self.tilt } else { Vector2::zeros() });
-        if known.is_some() {
-            self.pattern.catch(|growth| self.feedback.excess(growth));
-        }
-
-        // What does the walk ask for?
-        let support = self.pattern.half_step().support;
-        let asked = self.advance(dt);
-        // What was sensed before a swap is told from the other foot than the rest of the report.
-        let is_same_foot = self.pattern.half_step().support == support;
-        if self.pattern.is_out_of_reach() {
+        // What does the gait command?
+        let support = self.pattern.gait().half_step().support;
+        let commanded = self.advance(dt);
+        if self.pattern.gait().is_leg_out_of_reach() {
             faults.insert(Fault::OutOfReach);
         }
 
-        // What may the joints be given?
-        let setpoint = self.limit(&asked, dt, &mut faults);
-        if faults.contains(Fault::WalkNotFinite) {
-            self.latch(Fault::WalkNotFinite);
+        // What do the joints permit?
+        let setpoint = self.limit(&commanded, dt, &mut faults);
+        if faults.contains(Fault::SetpointNotFinite) {
+            self.latch(Fault::SetpointNotFinite);
         }
 
-        TickReport {
+        // What was measured before a support change is in the frame of the other foot.
+        let is_same_foot = self.pattern.gait().half_step().support == support;
+        Tick {
             setpoint,
-            mode: self.mode(),
-            half_step: self.pattern.half_step(),
-            command: self.pattern.command(),
-            speed: self.pattern.speed(),
-            zmp_in_support: self.ground.zmp.filter(|_| is_same_foot),
-            zmp_planned: self.plan.zmp,
-            margin: self.ground.margin,
-            lean: self.feedback.lean,
-            added: self.added(&asked),
-            com_planned: self.plan.centre_of_mass,
-            com_sensed: centre_of_mass.filter(|_| is_same_foot),
-            faults,
-            answer: self.answer.take(),
+            report: self.report(&commanded, com_measured, is_same_foot, faults),
+            command: self.pattern.gait().command(),
+            reply: self.admission.take_reply(),
         }
     }
 
     /// What the controller is doing.
     pub fn mode(&self) -> Mode {
-        let standing = |stance| match (self.latched, stance) {
-            (Some(_), _) => Mode::Faulted,
-            (None, Stance::Parallel) => Mode::Standing,
-            (None, Stance::Stride) => Mode::Holding,
-        };
-        match self.pattern.gate() {
-            _ if self.latched == Some(Fault::Fallen) => Mode::Fallen,
-            _ if self.rising.is_some() => Mode::Starting,
-            _ if self.holding.is_some() => standing(Stance::Stride),
-            Gate::Closed(stance) if self.pattern.weight_on_bearing() < 1.0 => standing(stance),
-            Gate::Closed(_) | Gate::Closing { .. } => Mode::Stopping,
-            _ if self.pattern.weight_on_bearing() < 1.0 => Mode::Starting,
-            Gate::Open if !self.is_on_its_way() && !self.pattern.can_stand() => Mode::Stopping,
-            Gate::Open | Gate::Opening { .. } => Mode::Walking,
-            Gate::InPlace { .. } => Mode::InPlace,
+        self.state.mode(self.pattern.gait().phase())
+    }
+
+    /// Whether a request can be submitted: the one before has been replied to.
+    pub fn accepts_request(&self) -> bool {
+        self.admission.is_idle()
+    }
+
+    /// Submits a request, between two ticks, while [`accepts_request`](Self::accepts_request). The tick in which it is
+    /// decided returns the reply.
+    pub fn submit(&mut self, request: &Request) {
+        let changes_walk = !request.is_empty() && !request.is_stop();
+        let steps = request.intent.is_none_or(Intent::steps);
+        if let Err(authority) = self.arbiter.admit(request) {
+            let refused = self.refused(Reason::Outranked);
+            self.admission.reply(Reply { authority: Some(authority), ..refused });
+        } else if request.intent == Some(Intent::Reset) {
+            let can_reset = self.state.latched().is_none() || self.can_reset();
+            if can_reset {
+                self.reset();
+            }
+            self.admission.reply(if can_reset { self.unchanged() } else { self.refused(Reason::FaultPersists) });
+        } else if self.state.has_fallen() {
+            self.admission.reply(self.refused(Reason::Fallen));
+        } else if self.state.latched().is_some() && changes_walk {
+            self.admission.reply(self.refused(Reason::Faulted));
+        } else if !self.pattern.gait().can_restart() && steps && !request.is_empty() {
+            self.admission.reply(self.refused(Reason::CannotRestart));
+        } else if request.is_empty() || self.state.latched().is_some() {
+            // A faulted robot stands already, or is about to.
+            self.admission.reply(self.unchanged());
+        } else {
+            self.evaluate(request);
         }
     }
 
-    /// Whether the newest good measurement is of now and tells of a robot on its feet.
-    pub(crate) fn is_well(&self) -> bool {
-        self.watch.is_upright() && !self.watch.is_stale()
+    /// The admission job that is to be evaluated, if there is one. Until it is [completed](Self::complete) no other request
+    /// can be submitted.
+    pub fn take_job(&mut self) -> Option<Box<AdmissionJob>> {
+        self.admission.take_job()
     }
 
-    /// Whether the weight goes from foot to foot just now, as it should.
-    fn is_at_swap(&self) -> bool {
-        let period = self.pattern.duration() / self.pattern.speed().max(SPEED_MIN);
-        let progress = self.pattern.half_step().progress;
-        progress.min(1.0 - progress) * period < SWAP
+    /// Takes an evaluated job back, between two ticks. The controller adopts its plan if that is still one for the present;
+    /// else the job has to be evaluated again.
+    pub fn complete(&mut self, job: Box<AdmissionJob>) {
+        let Pattern::Planned(generator) = &mut self.pattern else { return self.admission.finish(job) };
+        let refusal = match self.state.latched() {
+            Some(Fault::Fallen) => Some(Reason::Fallen),
+            Some(_) if !job.intent().is_some_and(Intent::is_stop) => Some(Reason::Faulted),
+            _ => None,
+        };
+        if let Some(reason) = refusal {
+            generator.cancel_speed_override();
+            self.admission.reply(self.refused(reason));
+        } else {
+            let Some((plan, decision)) = job.decided_for(generator) else {
+                return self.admission.reopen(job, generator);
+            };
+            if decision.verdict == Verdict::Refused {
+                generator.cancel_speed_override();
+            } else {
+                generator.adopt(plan);
+                self.state.set_intent(job.intent().unwrap_or(self.state.intent()));
+            }
+            self.admission.reply(decision.reply(self.state.intent()));
+        }
+        self.admission.finish(job);
     }
 
-    /// Whether half-steps are intended.
-    fn is_on_its_way(&self) -> bool {
-        matches!(self.intent, Intent::Walk | Intent::InPlace)
-    }
-
-    /// Whether the walk plans what the joints do.
-    fn is_planned(&self) -> bool {
-        self.latched != Some(Fault::Fallen) && self.holding.is_none() && self.rising.is_none()
-    }
-
-    /// Keeps a fault until a reset; what was asked before is forgotten.
-    fn latch(&mut self, fault: Fault) {
-        if self.latched != Some(Fault::Fallen) {
-            self.latched = Some(fault);
-            if fault != Fault::Fallen && self.is_on_its_way() {
-                self.stop(Stance::Stride);
+    /// Decides on a request that may change the walk: at once, or by a job where the walk is planned.
+    fn evaluate(&mut self, request: &Request) {
+        match &mut self.pattern {
+            Pattern::Planned(generator) => {
+                generator.override_speed(&request.gait);
+                self.admission.open(generator, request);
+            }
+            Pattern::Uncompensated(gait) => {
+                let decision = Decision::at_once(&gait.admit(&request.gait));
+                if decision.verdict != Verdict::Refused
+                    && let Some(intent) = request.intent
+                {
+                    self.state.set_intent(intent);
+                    if let Some(goal) = goal_of(intent) {
+                        gait.set_goal(goal);
+                    }
+                }
+                self.admission.reply(decision.reply(self.state.intent()));
             }
         }
     }
 
-    /// Absorbs a measurement; gives the centre of mass as sensed, if something good was sensed.
-    fn estimate(&mut self, measurement: Option<&Measurement>, dt: f64, faults: &mut Faults) -> Option<CentreOfMass> {
-        let good = self.watch.update(measurement, dt, faults);
-        if self.watch.is_stale() && self.latched.is_none() {
+    /// Whether the cause of the latched fault is gone.
+    fn can_reset(&self) -> bool {
+        let is_well = self.validator.is_upright() && !self.validator.is_stale();
+        is_well && (!self.state.has_fallen() || matches!(self.pattern, Pattern::Planned(_)))
+    }
+
+    /// Clears the latched fault. After a fall the joints return to a stand first.
+    fn reset(&mut self) {
+        match &mut self.pattern {
+            Pattern::Planned(generator) if self.state.has_fallen() => {
+                generator.clone_from(&self.rest);
+                let stand = generator.physical_motion().angles;
+                self.state.recover(Recovery::begin(&self.limiter.hold().angles, &stand));
+            }
+            _ => self.state.clear_fault(),
+        }
+    }
+
+    /// Stops by its own decision, whatever request is under evaluation.
+    fn stop(&mut self, stance: Stance) {
+        self.state.set_intent(if stance == Stance::Parallel { Intent::Stop } else { Intent::Hold });
+        self.pattern.gait_mut().stop(stance);
+    }
+
+    /// Latches a fault until a reset; a walk stops.
+    fn latch(&mut self, fault: Fault) {
+        if self.state.latch(fault) {
+            self.stop(Stance::Stride);
+        }
+    }
+
+    /// Absorbs a measurement and returns the measured centre of mass; `None` without a valid measurement, and in the air.
+    fn estimate(&mut self, measurement: Option<&Measurement>, dt: f64, faults: &mut Faults) -> Option<ComState> {
+        let valid = self.validator.update(measurement, dt, faults);
+        if self.validator.is_stale() && self.state.latched().is_none() {
             self.latch(Fault::MeasurementStale);
         }
-        let (measurement, up_in_trunk) = good?;
-        if self.watch.has_fallen() {
+        let (measurement, up_in_trunk) = valid?;
+        if self.validator.has_fallen() {
             faults.insert(Fault::Fallen);
-            self.latch(Fault::Fallen);
+            self.state.fall();
         }
 
-        let sensed = Sensed::from_support(
-            self.pattern.half_step().support,
-            self.pattern.mirror(),
-            &measurement.angles,
-            &measurement.rates,
-            &measurement.feet,
-            up_in_trunk,
-            measurement.angular_rate,
-        );
-        self.kinematics.stand(&self.tree, &sensed.angles);
-        self.ground = self.zmp_estimator.update(&sensed, &self.kinematics, &self.mechanism, dt);
-        if self.ground.zmp.is_none() {
+        let gait = self.pattern.gait_mut();
+        let support = gait.half_step().support;
+        let measured = SupportFrameMeasurement::new(support, gait.walk().mirror(), measurement, up_in_trunk);
+        self.kinematics.compute_fixed_base(&self.tree, &measured.angles);
+        self.contact = self.zmp_estimator.update(&measured, &self.kinematics, &self.mechanism, dt);
+        if self.contact.zmp.is_none() {
             faults.insert(Fault::InTheAir);
             self.feedback.release();
             return None;
         }
         // A sole that bears alone, and not on an edge, lies flat: it leans as the floor does.
-        if self.ground.margin > FLAT_MARGIN && !self.ground.bears[1] {
-            self.pattern.sense_vertical(sensed.up_over_sole(&self.kinematics).xy(), dt);
+        if self.contact.margin > FLAT_MARGIN && !self.contact.in_contact[1] {
+            gait.update_ground_slope(measured.up_over_sole(&self.kinematics).xy(), dt);
         }
-        self.tilt = self.plan.tilt(&sensed.up_in_trunk, self.pattern.vertical_now());
-        Some(CentreOfMass::sensed(&self.tree, &self.kinematics, &sensed))
+        self.tilt = self.reference.tilt(&measured.up_in_trunk, gait.sensed_vertical());
+        Some(estimate_com(&self.tree, &self.kinematics, &measured))
     }
 
-    /// Moves on by a period and gives what the mode asks for, in support coordinates, feedback included.
+    /// Updates feedback, landing compliance and step adjustment with what was measured.
+    fn balance(&mut self, com_measured: Option<ComState>, dt: f64) {
+        let follows_walk = self.follows_walk();
+        if !follows_walk {
+            self.feedback.release();
+        }
+        let com = com_measured.filter(|_| follows_walk);
+        let in_double_support = self.pattern.gait().in_double_support();
+        let is_changing_support = self.is_changing_support();
+
+        // A foot that bears alone says where the ground pushes.
+        let zmp = self.contact.zmp.filter(|_| self.contact.in_contact == [true, false] && !is_changing_support);
+        let measured = com.map(|com| BalanceState { com, tilt: self.tilt, zmp });
+        self.feedback.update(&BalanceState::planned(&self.reference), measured.as_ref(), in_double_support, dt);
+
+        // On both feet the weight moves to and fro as the robot comes to rest.
+        let complies = !in_double_support && !is_changing_support && !self.feedback.is_error_large();
+        let loads = com.filter(|_| complies).map(|_| self.contact.loads);
+        self.landing.update(loads, dt);
+
+        let gait = self.pattern.gait_mut();
+        gait.set_tilt(if com.is_some() && !in_double_support { self.tilt } else { Vector2::zeros() });
+        if com.is_some()
+            && let Some(growth) = gait.growth_until_touchdown()
+        {
+            gait.adjust_step(self.feedback.uncorrectable_error(growth));
+        }
+    }
+
+    /// Whether the weight moves from foot to foot just now, as planned.
+    fn is_changing_support(&self) -> bool {
+        let gait = self.pattern.gait();
+        let duration = gait.walk().table().duration / gait.speed().max(SPEED_MIN);
+        let progress = gait.half_step().progress;
+        progress.min(1.0 - progress) * duration < SUPPORT_CHANGE
+    }
+
+    /// Whether the joints follow the walk, so that feedback applies.
+    fn follows_walk(&self) -> bool {
+        self.state.plays_gait() && self.pattern.gait().follows_walk()
+    }
+
+    /// Moves on by a period and returns the commanded motion in support coordinates, feedback included.
     fn advance(&mut self, dt: f64) -> Motion {
-        if self.latched == Some(Fault::Fallen) {
+        if self.state.has_fallen() {
             return Motion::default();
         }
-        if let Some(rising) = &mut self.rising {
-            match rising.advance(dt) {
-                Some(motion) => return self.to_support(&motion),
-                None => self.rising = None,
-            }
+        if let Some(recovery) = self.state.advance_recovery(dt) {
+            let gait = self.pattern.gait();
+            return gait.walk().mirror().to_support(gait.half_step().support, &recovery);
         }
-        let motion = if let Some(holding) = &mut self.holding {
-            holding.advance(&self.tree, dt)
-        } else {
-            if self.pattern.advance(dt) {
-                self.swap();
-            }
-            self.pattern.motion()
-        };
-        let on_both_feet = self.pattern.weight_on_bearing() < 1.0;
-        self.plan.update(&self.tree, self.pattern.mirror(), &motion, on_both_feet);
-        self.landing.advance(&self.tree, self.plan.kinematics(), &motion.angles, dt);
+        let gait = self.pattern.gait_mut();
+        if gait.advance(dt) {
+            let mirror = gait.walk().mirror();
+            self.feedback.change_support(mirror);
+            self.landing.change_support(mirror);
+            self.zmp_estimator.change_support(mirror);
+        }
+        let motion = gait.motion();
+        self.reference.update(&self.tree, gait.walk().mirror(), &motion, gait.in_double_support());
+        self.landing.advance(&self.tree, self.reference.kinematics(), &motion.angles, dt);
         motion + *self.feedback.offsets() + *self.landing.offsets()
     }
 
-    /// A motion of physical joints as seen from the bearing foot.
-    fn to_support(&self, physical: &Motion) -> Motion {
-        match self.pattern.half_step().support {
-            Side::Right => *physical,
-            Side::Left => physical.mirrored(self.pattern.mirror()),
+    /// Brings the commanded motion back to physical joints and through the limiter.
+    fn limit(&mut self, commanded: &Motion, dt: f64, faults: &mut Faults) -> Setpoint {
+        if self.state.has_fallen() {
+            return self.limiter.hold();
         }
+        let gait = self.pattern.gait();
+        let (support, mirror) = (gait.half_step().support, gait.walk().mirror());
+        let motion = mirror.to_physical(support, commanded);
+        let torques = mirror.to_physical(support, &self.reference.torques);
+        self.limiter.limit(&motion, &torques, dt, faults)
     }
 
-    /// A new half-step has begun, told from the other foot.
-    fn swap(&mut self) {
-        self.feedback.swap(self.pattern.mirror());
-        self.landing.swap(self.pattern.mirror());
-        self.zmp_estimator.swap();
-        if !self.is_on_its_way() && !self.pattern.can_stand() {
-            let pendulum_rate = self.plan.centre_of_mass.pendulum_rate();
-            self.holding = Some(Holding::begin(&self.tree, &self.pattern.motion(), pendulum_rate));
-        }
-    }
-
-    /// Brings what is asked back to physical joints and through the guard.
-    fn limit(&mut self, asked: &Motion, dt: f64, faults: &mut Faults) -> Setpoint {
-        if self.latched == Some(Fault::Fallen) {
-            return self.guard.hold();
-        }
-        match self.pattern.half_step().support {
-            Side::Right => self.guard.limit(asked, &self.plan.torques, dt, faults),
-            Side::Left => {
-                let mirror = self.pattern.mirror();
-                self.guard.limit(&asked.mirrored(mirror), &mirror.apply(&self.plan.torques), dt, faults)
-            }
-        }
+    fn report(&self, commanded: &Motion, com_measured: Option<ComState>, is_same_foot: bool, faults: Faults) -> Report {
+        let gait = self.pattern.gait();
+        let has_plan = !self.state.has_fallen();
+        to_physical(Report {
+            mode: self.mode(),
+            half_step: gait.half_step(),
+            speed: gait.speed(),
+            turn: gait.command().turn,
+            extension: gait.command().extension,
+            zmp_in_support: self.contact.zmp.filter(|_| is_same_foot),
+            zmp_planned: has_plan.then_some(self.reference.zmp),
+            margin: Some(self.contact.margin).filter(|margin| margin.is_finite()),
+            lean: self.feedback.lean(),
+            added: self.added(commanded),
+            com_planned: has_plan.then_some(self.reference.com),
+            com_measured: com_measured.filter(|_| is_same_foot),
+            faults,
+        })
     }
 
     /// What the plan adds to the plain sum of the modifications. The walk is known at the newest knot, a little ahead of
-    /// now: just before a swap only as told from the other foot.
-    fn added(&self, asked: &Motion) -> Option<AddedAngles> {
-        let (walk, now) = match &self.pattern {
-            Pattern::Plain(walk) => (walk.as_ref(), walk.half_step()),
-            Pattern::Preview(preview) => (preview.walk(), preview.half_step()),
-        };
-        let is_known = self.is_planned() && walk.half_step().index == now.index;
-        let planned = asked.angles - self.feedback.offsets().angles - self.landing.offsets().angles;
-        is_known.then(|| AddedAngles::between(&self.mechanism, &walk.motion_at(now.progress).angles, &planned))
+    /// now: just before a support change only in the frame of the other foot.
+    fn added(&self, commanded: &Motion) -> Option<AddedAngles> {
+        let gait = self.pattern.gait();
+        let (walk, now) = (gait.walk(), gait.half_step());
+        let is_known = self.follows_walk() && walk.half_step().index == now.index;
+        let planned = commanded.angles - self.feedback.offsets().angles - self.landing.offsets().angles;
+        is_known.then(|| added_angles(&self.mechanism, &walk.motion_at(now.progress).angles, &planned))
+    }
+
+    /// The reply to a request that changes nothing.
+    fn unchanged(&self) -> Reply {
+        let gait = self.pattern.gait();
+        Decision::unchanged(gait.command(), gait.half_step().index).reply(self.state.intent())
+    }
+
+    /// The reply to a refused request.
+    fn refused(&self, reason: Reason) -> Reply {
+        let gait = self.pattern.gait();
+        Reply::refused(reason, gait.half_step().index, gait.command(), Some(self.state.intent()))
     }
 }

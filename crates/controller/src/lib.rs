@@ -1,32 +1,29 @@
-//! What to do this tick: estimate, walk, limit, report.
+//! The controller: what to do in each control period.
 //!
-//! [`Controller::tick`] takes the period's length, the newest measurement and at most one request, and gives the setpoint
-//! and a report. It never allocates, blocks, logs or fails: bad input becomes a [`Fault`] in the report, and the same
-//! inputs give the same bits. There is no clock and no I/O here.
+//! [`Controller::tick`] takes the period's length and the newest measurement, and returns a setpoint and a report. It never
+//! allocates, blocks, logs or fails: bad input becomes a [`Fault`](interface::Fault) in the report, and the same inputs give
+//! the same bits. There is no clock here, and no I/O after [`Controller::new`]. [`Driver::step`] is a whole control period
+//! with requests: use it rather than the controller's parts.
 
-mod asked;
+mod admission;
+mod admission_job;
+mod command_arbiter;
 mod controller;
-mod fault;
-mod guard;
-mod inquiry;
-mod measurement;
-mod mode;
+mod driver;
+mod joint_limiter;
+mod measurement_validator;
+mod operating_state;
 mod parameters;
 mod pattern;
+mod recovery;
 mod report;
-mod requests;
-mod sources;
-mod watch;
 
-pub use asked::Asked;
+pub use admission_job::AdmissionJob;
+pub use command_arbiter::{ArbiterParameters, CommandArbiter};
 pub use controller::Controller;
-pub use fault::{Fault, Faults};
-pub use guard::Guard;
-pub use inquiry::{Inquiry, Ruling};
-pub use measurement::Measurement;
-pub use mode::{Intent, Mode};
-pub use parameters::{Parameters, WatchParameters};
-pub use pattern::{Compensation, Pattern};
-pub use report::{AddedAngles, Answer, Refusal, Setpoint, TickReport};
-pub(crate) use requests::Desk;
-pub use sources::{AGE_LIMIT_MIN, Lasting, Outranked, Source, Sources, SourcesParameters};
+pub use driver::{AdmissionTiming, AdmissionWorker, Driver, InlineWorker, Step};
+pub use joint_limiter::JointLimiter;
+pub use measurement_validator::{MeasurementValidator, ValidatorParameters};
+pub use parameters::Parameters;
+pub use pattern::Compensation;
+pub use report::Tick;

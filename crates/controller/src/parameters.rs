@@ -1,76 +1,52 @@
-//! What can be set about the controller; `config/controller.toml`.
+//! The parameters of the controller; `config/controller.toml`.
 
-use std::path::Path;
-
-use balance::preview::ForecastParameters;
-use balance::{FeedbackParameters, LandingParameters, ZmpParameters};
+use ::pattern::FeasibilityParameters;
+use config::{Config, Table};
 use gait::{GaitParameters, Limits, RampKind};
-use model::config::{self, ConfigErrors, Document, Table};
+use interface::{COMMAND_TIMEOUT_MIN as TIMEOUT_MIN, Source};
+use stabilizer::{FeedbackParameters, LandingParameters, ZmpParameters};
 
-use crate::{AGE_LIMIT_MIN, Compensation, Source, SourcesParameters};
+use crate::command_arbiter::ArbiterParameters;
+use crate::measurement_validator::ValidatorParameters;
+use crate::pattern::Compensation;
 
-/// All of it.
+/// The parameters of the controller, read by its [`Config`] implementation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters {
-    /// How requests bend the walk, and how far.
+    /// Ramps and permitted range of the gait parameters.
     pub gait: GaitParameters,
     /// How the modified half-step is kept in balance before any feedback.
     pub compensation: Compensation,
-    /// ZMP estimator and ankle feedback.
-    pub balance: balance::Parameters,
-    /// What is demanded of the half-steps that a request leads to.
-    pub forecast: ForecastParameters,
-    /// What counts as trouble.
-    pub watch: WatchParameters,
-    /// How long sources of requests are believed, and who goes before whom.
-    pub sources: SourcesParameters,
+    /// ZMP estimator, feedback and landing compliance.
+    pub stabilizer: stabilizer::Parameters,
+    /// Limits that the half-steps of a granted request must keep.
+    pub feasibility: FeasibilityParameters,
+    /// What counts as a valid measurement and as a fall.
+    pub validator: ValidatorParameters,
+    /// Command timeout and priorities of the sources.
+    pub arbiter: ArbiterParameters,
 }
 
-/// What counts as trouble.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WatchParameters {
-    /// Longest time without a good measurement [s]; beyond it the robot holds still.
-    pub silence_max: f64,
-    /// Tilt of the trunk beyond which the robot counts as fallen [rad].
-    pub tilt_max: f64,
-}
+/// Longest command timeout that may be configured (s): a robot that walks on for longer without commands is unattended.
+const TIMEOUT_MAX: f64 = 60.0;
 
-/// Longest age limit that makes sense: a walk that goes on for longer with nobody there is unattended [s].
-const AGE_LIMIT_MAX: f64 = 60.0;
-
-impl Parameters {
-    /// Reads a controller file.
-    ///
-    /// # Errors
-    /// When the file cannot be read, and every key that is unknown, missing or out of range.
-    pub fn load(path: impl AsRef<Path>) -> Result<Self, ConfigErrors> {
-        let path = path.as_ref();
-        Self::from_toml(&config::read(path)?, &path.display().to_string())
-    }
-
-    /// Reads the text of a controller file; `file` is its name for messages.
-    ///
-    /// # Errors
-    /// Every key that is unknown, missing or out of range.
-    pub fn from_toml(text: &str, file: &str) -> Result<Self, ConfigErrors> {
-        let document = Document::parse(text, file)?;
-        let root = document.root();
-        let parameters = Self {
+impl Config for Parameters {
+    fn read(root: &Table) -> Self {
+        Self {
             gait: gait(&root.table("gait"), &root.table("limits")),
             compensation: root
                 .table("gait")
                 .choice("compensation", [("none", Compensation::None), ("preview", Compensation::Preview)])
                 .unwrap_or(Compensation::None),
-            balance: balance::Parameters {
+            stabilizer: stabilizer::Parameters {
                 zmp: zmp(&root.table("zmp")),
                 feedback: feedback(&root.table("feedback")),
                 landing: landing(&root.table("landing")),
             },
-            forecast: forecast(&root.table("forecast")),
-            watch: watch(&root.table("watch")),
-            sources: sources(&root.table("sources")),
-        };
-        document.finish(parameters)
+            feasibility: feasibility(&root.table("forecast")),
+            validator: validator(&root.table("watch")),
+            arbiter: arbiter(&root.table("sources")),
+        }
     }
 }
 
@@ -101,9 +77,9 @@ fn feedback(table: &Table) -> FeedbackParameters {
         gain: table.number("gain").between(0.0, 20.0),
         ankle_stiffness: table.number("ankle_stiffness_n_m_per_rad").positive(),
         edge: table.number("edge_m").not_negative(),
-        zmp_lag: table.number("zmp_lag_s").positive(),
-        lag: table.number("lag_s").positive(),
-        fade: table.number("fade_s").positive(),
+        foot_damping_time_constant: table.number("zmp_lag_s").positive(),
+        support_ankle_time_constant: table.number("lag_s").positive(),
+        swing_ankle_time_constant: table.number("fade_s").positive(),
     }
 }
 
@@ -114,33 +90,46 @@ fn landing(table: &Table) -> LandingParameters {
     }
 }
 
-fn forecast(table: &Table) -> ForecastParameters {
-    ForecastParameters {
+fn feasibility(table: &Table) -> FeasibilityParameters {
+    FeasibilityParameters {
         margin_min: table.number("margin_min_m").between(-0.1, 0.1),
         clearance_min: table.number("clearance_min_m").between(0.0, 0.1),
     }
 }
 
-fn watch(table: &Table) -> WatchParameters {
-    WatchParameters {
-        silence_max: table.number("silence_max_s").positive(),
-        tilt_max: table.angle("tilt_max_deg").between(5.0, 90.0),
+/// The thresholds besides timeout and tilt may be left out.
+fn validator(table: &Table) -> ValidatorParameters {
+    let timeout = table.number("silence_max_s").positive();
+    let tilt_max = table.angle("tilt_max_deg").between(5.0, 90.0);
+    let default = ValidatorParameters::with_default_thresholds(timeout, tilt_max);
+    let positive = |key, default| if table.has(key) { table.number(key).positive() } else { default };
+    ValidatorParameters {
+        timeout,
+        tilt_max,
+        fall_confirmation: positive("fall_confirmation_s", default.fall_confirmation),
+        angle_tolerance: positive("angle_tolerance_rad", default.angle_tolerance),
+        rate_factor_max: positive("rate_factor_max", default.rate_factor_max),
+        trunk_rate_max: positive("trunk_rate_max_rad_per_s", default.trunk_rate_max),
+        load_factor_max: positive("load_factor_max", default.load_factor_max),
+        orientation_jump_max: positive("orientation_jump_max_rad", default.orientation_jump_max),
+        trunk_rate_jump_max: positive("trunk_rate_jump_max_rad_per_s", default.trunk_rate_jump_max),
+        gyro_horizon: positive("gyro_horizon_s", default.gyro_horizon),
     }
 }
 
-fn sources(table: &Table) -> SourcesParameters {
+fn arbiter(table: &Table) -> ArbiterParameters {
     let names = [
         ("teleop", Source::Teleop),
         ("console", Source::Console),
         ("program", Source::Program),
         ("script", Source::Script),
     ];
-    let is_limit = |limit| limit == 0.0 || (AGE_LIMIT_MIN..=AGE_LIMIT_MAX).contains(&limit);
-    let must = format!("must lie between {AGE_LIMIT_MIN} and {AGE_LIMIT_MAX}, or be 0 for none");
-    let age_limit = table.number("age_limit_s").that(is_limit, &must);
-    SourcesParameters {
-        age_limit: Some(age_limit).filter(|&limit| limit > 0.0),
-        priority: table.order("priority", names).unwrap_or(Source::ALL),
+    let is_timeout = |timeout| timeout == 0.0 || (TIMEOUT_MIN..=TIMEOUT_MAX).contains(&timeout);
+    let must = format!("must lie between {TIMEOUT_MIN} and {TIMEOUT_MAX}, or be 0 for none");
+    let timeout = table.number("age_limit_s").that(is_timeout, &must);
+    ArbiterParameters {
+        timeout: Some(timeout).filter(|&timeout| timeout > 0.0),
+        priority: table.order("priority", names).unwrap_or(names.map(|(_, source)| source)),
     }
 }
 
@@ -150,31 +139,42 @@ mod tests {
 
     const COMMITTED: &str = include_str!("../../../config/controller.toml");
 
-    fn with(from: &str, to: &str) -> Result<SourcesParameters, String> {
+    fn with(from: &str, to: &str) -> Result<Parameters, String> {
         assert!(COMMITTED.contains(from), "{from}");
-        let parameters = Parameters::from_toml(&COMMITTED.replace(from, to), "f");
-        parameters.map(|parameters| parameters.sources).map_err(|errors| errors.to_string())
+        Parameters::from_toml(&COMMITTED.replace(from, to), "f").map_err(|errors| errors.to_string())
     }
 
     #[test]
-    fn streams_are_believed_for_half_a_second_unless_that_is_switched_off() {
-        assert_eq!(with("", "").unwrap().age_limit, Some(0.5));
-        assert_eq!(with("age_limit_s = 0.5", "age_limit_s = 0").unwrap().age_limit, None);
+    fn the_command_timeout_may_be_switched_off_but_not_be_absurd() {
+        let timeout = |to: &str| with("age_limit_s = 0.5", to).map(|parameters| parameters.arbiter.timeout);
+        assert_eq!(timeout("age_limit_s = 0.5"), Ok(Some(0.5)));
+        assert_eq!(timeout("age_limit_s = 0"), Ok(None));
         for wrong in ["-1", "0.01", "1000", "nan"] {
-            assert!(with("age_limit_s = 0.5", &format!("age_limit_s = {wrong}")).is_err(), "{wrong}");
+            assert!(timeout(&format!("age_limit_s = {wrong}")).is_err(), "{wrong}");
         }
     }
 
     #[test]
     fn the_order_of_priority_names_each_source_once() {
         let order = r#"["teleop", "console", "program", "script"]"#;
-        assert_eq!(with("", "").unwrap().priority[0], Source::Teleop);
-        let turned = with(order, r#"["script", "program", "console", "teleop"]"#).unwrap();
-        assert_eq!(turned.priority, [Source::Script, Source::Program, Source::Console, Source::Teleop]);
+        let priority = |to: &str| with(order, to).map(|parameters| parameters.arbiter.priority);
+        assert_eq!(priority(order).unwrap()[0], Source::Teleop);
+        let reversed = [Source::Script, Source::Program, Source::Console, Source::Teleop];
+        assert_eq!(priority(r#"["script", "program", "console", "teleop"]"#), Ok(reversed));
         for wrong in ["[]", "3", r#"["teleop", "console", "program"]"#, r#"["teleop", "teleop", "program", "script"]"#]
         {
-            let errors = with(order, wrong).unwrap_err();
+            let errors = priority(wrong).unwrap_err();
             assert!(errors.contains("must be an array that names each of \"teleop\", \"console\""), "{errors}");
         }
+    }
+
+    #[test]
+    fn thresholds_that_are_left_out_are_those_of_the_committed_file() {
+        let committed = with("", "").unwrap().validator;
+        let default = ValidatorParameters::with_default_thresholds(committed.timeout, committed.tilt_max);
+        assert_eq!(committed, default, "the file states the defaults");
+        let other = with("fall_confirmation_s = 0.05", "fall_confirmation_s = 0.1").unwrap().validator;
+        assert_eq!(other, ValidatorParameters { fall_confirmation: 0.1, ..default });
+        assert!(with("fall_confirmation_s = 0.05", "fall_confirmation_s = -0.1").is_err());
     }
 }

@@ -1,119 +1,65 @@
-//! What a tick gives: the setpoint, and what there is to say about it.
+//! What a tick returns, and how a report leaves the support coordinates of the controller.
 
-use balance::CentreOfMass;
-use balance::preview::Strain;
-use gait::{Admission, HalfStep};
-use model::{Joint, JointVector, Mechanism};
-use nalgebra::Vector2;
+use interface::{AddedAngles, Command, Reply, Report, Setpoint};
+use model::{ComState, Joint, JointVector, Mechanism, Side};
+use nalgebra::{Vector2, Vector3};
 
-use crate::{Faults, Intent, Mode, Outranked};
-
-/// What the drives are to reach at the end of the period, in physical joints.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Setpoint {
-    /// [rad]
-    pub angles: JointVector,
-    /// [rad/s]
-    pub rates: JointVector,
-    /// Torques that the motion is expected to need [N·m].
-    pub feed_forward: JointVector,
-}
-
-/// One tick, told.
+/// What a tick returns.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TickReport {
-    /// What goes to the drives.
+pub struct Tick {
+    /// What the drives are to reach at the end of the period.
     pub setpoint: Setpoint,
-    /// What the controller is doing.
-    pub mode: Mode,
-    /// Which half-step, on which foot, how far.
-    pub half_step: HalfStep,
-    /// What is in force.
-    pub command: gait::Command,
-    /// The speed factor of this instant.
-    pub speed: f64,
-    /// Measured ZMP in support coordinates [m], if the ground said where; `None`, too, in the tick of a swap, when it is
-    /// known only as seen from the other foot.
-    pub zmp_in_support: Option<Vector2<f64>>,
-    /// What the asked motion needs the ZMP to be, in support coordinates [m].
-    pub zmp_planned: Vector2<f64>,
-    /// Signed distance of the measured ZMP to the edge of what bears [m].
-    pub margin: f64,
-    /// Feedback angles at the bearing ankle, about x and y [rad].
-    pub lean: Vector2<f64>,
-    /// What the plan adds before any feedback; `None` when the plain sum of the modifications is not known: while nothing
-    /// is planned, and for the last knot before a swap.
-    pub added: Option<AddedAngles>,
-    /// Of the asked motion, in support coordinates.
-    pub com_planned: CentreOfMass,
-    /// As sensed, in support coordinates; `None` as for the ZMP.
-    pub com_sensed: Option<CentreOfMass>,
-    /// What is wrong.
-    pub faults: Faults,
-    /// The answer to the tick's request, if it had one.
-    pub answer: Option<Answer>,
+    /// The state of the controller.
+    pub report: Report,
+    /// The gait parameters in force; the report has the speed of the instant, which follows over a ramp.
+    pub command: Command,
+    /// The reply to an earlier request, if it is decided.
+    pub reply: Option<Reply>,
 }
 
-/// What the plan adds to the plain sum of the modifications: rotations of the body over a joint, about x and y of support
-/// coordinates [rad].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct AddedAngles {
-    /// Of the whole body over the bearing ankle.
-    pub ankle: Vector2<f64>,
-    /// Of the trunk over the pelvis.
-    pub waist: Vector2<f64>,
-}
-
-impl AddedAngles {
-    /// What leads from one posture to the other; both in support coordinates, angles small.
-    pub fn between(mechanism: &Mechanism, plain: &JointVector, planned: &JointVector) -> Self {
-        let turned = |joints: [Joint; 2]| {
-            let turn = |joint| mechanism.links[joint].axis.xy() * (planned[joint] - plain[joint]);
-            joints.map(turn).iter().sum()
-        };
-        Self {
-            ankle: turned([Joint::RightAnkleRoll, Joint::RightAnklePitch]),
-            waist: turned([Joint::WaistPitch, Joint::WaistRoll]),
-        }
+/// Within the controller the support foot is always the right one. Mirrors a report back if it is the left one: points and
+/// velocities change the sign of y, rotations that of x.
+pub(crate) fn to_physical(report: Report) -> Report {
+    if report.half_step.support == Side::Right {
+        return report;
+    }
+    let point = |point: Vector2<f64>| Vector2::new(point.x, -point.y);
+    let vector = |vector: Vector3<f64>| Vector3::new(vector.x, -vector.y, vector.z);
+    let rotation = |rotation: Vector2<f64>| Vector2::new(-rotation.x, rotation.y);
+    let com = |com: ComState| ComState { position: vector(com.position), velocity: vector(com.velocity) };
+    let added = |AddedAngles { ankle, waist }| AddedAngles { ankle: rotation(ankle), waist: rotation(waist) };
+    Report {
+        zmp_in_support: report.zmp_in_support.map(point),
+        zmp_planned: report.zmp_planned.map(point),
+        lean: rotation(report.lean),
+        added: report.added.map(added),
+        com_planned: report.com_planned.map(com),
+        com_measured: report.com_measured.map(com),
+        ..report
     }
 }
 
-/// The answer to a request.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Answer {
-    /// What became of turn, speed and extension, and when it takes effect.
-    pub admission: Admission,
-    /// The limit that would be broken by what was asked, where less was granted for it.
-    pub strain: Option<Strain>,
-    /// Least margin foreseen for the coming half-steps [m].
-    pub predicted_margin: Option<f64>,
-    /// What is intended from now on.
-    pub intent: Intent,
-    /// Why nothing was granted at all, apart from the values themselves.
-    pub refusal: Option<Refusal>,
-}
-
-/// Why a request as a whole was refused.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Refusal {
-    /// The robot has fallen: put it on its feet and ask for a reset.
-    Fallen,
-    /// A fault is latched: ask for a reset.
-    Faulted,
-    /// What went wrong still is: a reset is of no use yet.
-    NotWell,
-    /// The plain sum of modifications has been stopped; it cannot begin again from a stand.
-    Standing,
-    /// A source that goes before the one that asked is in command.
-    Outranked(Outranked),
+/// The rotations over ankle and waist that lead from one posture to another; both in support coordinates, angles small.
+pub(crate) fn added_angles(mechanism: &Mechanism, plain: &JointVector, planned: &JointVector) -> AddedAngles {
+    let rotation = |joints: [Joint; 2]| {
+        let about = |joint| mechanism.links[joint].axis.xy() * (planned[joint] - plain[joint]);
+        joints.map(about).iter().sum()
+    };
+    AddedAngles {
+        ankle: rotation([Joint::RightAnkleRoll, Joint::RightAnklePitch]),
+        waist: rotation([Joint::WaistPitch, Joint::WaistRoll]),
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use config::Config;
+    use interface::{Faults, HalfStep, Mode};
+
     use super::*;
 
     #[test]
-    fn added_angles_are_told_about_axes_whichever_joint_has_them() {
+    fn added_angles_are_about_axes_whichever_joint_has_them() {
         // In the other reading of the paper joint 3 pitches and joint 4 rolls.
         for (file, roll, pitch) in [
             ("mechanism.toml", Joint::RightAnkleRoll, Joint::RightAnklePitch),
@@ -125,9 +71,41 @@ mod tests {
             planned[roll] += 0.25;
             planned[pitch] -= 0.5;
             planned[Joint::RightKnee] += 1.0;
-            let added = AddedAngles::between(&mechanism, &plain, &planned);
+            let added = added_angles(&mechanism, &plain, &planned);
             assert!((added.ankle - Vector2::new(0.25, -0.5)).norm() < 1e-12, "{file}: {added:?}");
             assert_eq!(added.waist, Vector2::zeros(), "{file}");
         }
+    }
+
+    #[test]
+    fn a_report_on_the_left_foot_is_the_mirror_image() {
+        let on = |support| {
+            let com = ComState { position: Vector3::new(0.1, 0.08, 0.9), velocity: Vector3::new(0.4, -0.2, 0.01) };
+            to_physical(Report {
+                mode: Mode::Walking,
+                half_step: HalfStep::first(support),
+                speed: 1.0,
+                turn: 0.1,
+                extension: 0.0,
+                zmp_in_support: Some(Vector2::new(0.01, 0.02)),
+                zmp_planned: Some(Vector2::new(0.03, 0.04)),
+                margin: Some(0.02),
+                lean: Vector2::new(0.1, 0.2),
+                added: Some(AddedAngles { ankle: Vector2::new(0.3, 0.4), waist: Vector2::new(0.5, 0.6) }),
+                com_planned: Some(com),
+                com_measured: None,
+                faults: Faults::default(),
+            })
+        };
+        let (right, left) = (on(Side::Right), on(Side::Left));
+        assert_eq!(right.lean, Vector2::new(0.1, 0.2));
+        assert_eq!(left.lean, Vector2::new(-0.1, 0.2));
+        let added = AddedAngles { ankle: Vector2::new(-0.3, 0.4), waist: Vector2::new(-0.5, 0.6) };
+        assert_eq!(left.added, Some(added));
+        assert_eq!(left.zmp_in_support, Some(Vector2::new(0.01, -0.02)));
+        assert_eq!(left.zmp_planned, Some(Vector2::new(0.03, -0.04)));
+        let com = ComState { position: Vector3::new(0.1, -0.08, 0.9), velocity: Vector3::new(0.4, 0.2, 0.01) };
+        assert_eq!((left.com_planned, left.com_measured), (Some(com), None));
+        assert_eq!(left.turn, right.turn, "a command is not mirrored");
     }
 }

@@ -11,11 +11,12 @@ use crate::{Kinematics, Tree};
 /// Forward dynamics and its intermediates. Filled in two stages, so that contact forces can be computed between them.
 #[derive(Clone, Debug)]
 pub struct ArticulatedBody {
-    /// Acceleration of free fall in world axes [m/s²]: downward by default.
+    /// Acceleration of free fall in world axes (m/s²): downward by default.
     pub gravity: Vector3<f64>,
-    /// Filled by [`ArticulatedBody::set_state`]: where every link is, in world axes about the *right sole's origin*.
+    /// Poses of all links, in world axes about the *right sole's origin*. Filled by [`ArticulatedBody::set_state`].
     pub kinematics: Kinematics,
-    /// Filled by [`ArticulatedBody::set_state`]: spatial velocity of each link.
+    /// Spatial velocity of each link: angular (rad/s), then linear at the right sole's origin (m/s). Filled by
+    /// [`ArticulatedBody::set_state`].
     pub velocity: PerJoint<Vector6<f64>>,
     subspace: PerJoint<Vector6<f64>>,
     bias_acceleration: PerJoint<Vector6<f64>>,
@@ -29,26 +30,26 @@ pub struct ArticulatedBody {
     acceleration: PerJoint<Vector6<f64>>,
 }
 
-/// What acts on a link from outside.
+/// An external load on a link.
 #[derive(Clone, Copy, Debug)]
 pub struct LinkLoad {
-    /// The link acted on.
+    /// The joint that carries the loaded link.
     pub link: Joint,
-    /// In world axes about the right sole's origin.
+    /// Wrench of the load at zero acceleration, in world axes about the right sole's origin.
     pub wrench: Wrench,
-    /// How much the wrench lessens per spatial acceleration of the link: zero for a given force; `h·D + h²·K` for a
-    /// damper and spring that are to be integrated implicitly over a step `h`.
+    /// Decrease of the wrench per spatial acceleration of the link: zero for a given force, `h·D + h²·K` for a damper
+    /// and spring that are integrated implicitly over a step `h`.
     pub added_inertia: Matrix6<f64>,
 }
 
-/// What the robot does next.
+/// Accelerations of the floating robot.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Accelerations {
-    /// Of the right foot, in world axes [rad/s²].
+    /// Angular acceleration of the right foot, in world axes (rad/s²).
     pub base_angular: Vector3<f64>,
-    /// Of the right sole's origin, in world axes [m/s²].
+    /// Acceleration of the right sole's origin, in world axes (m/s²).
     pub base_linear: Vector3<f64>,
-    /// Of the joints [rad/s²]; zero for the unpowered two.
+    /// Joint accelerations (rad/s²); zero for the two unpowered joints.
     pub joints: JointVector,
 }
 
@@ -77,10 +78,10 @@ impl Default for ArticulatedBody {
 const BASE: Joint = Mechanism::foot(Side::Right);
 
 impl ArticulatedBody {
-    /// First stage: poses, velocities, and what each link's own motion needs.
+    /// First stage: poses, velocities, and the inertia and bias wrench of each link by itself.
     ///
-    /// * `orientation` – of the right sole, sole to world; its translation is ignored
-    /// * `angular_rate`, `velocity` – of the right sole's origin, in world axes [rad/s, m/s]
+    /// * `orientation` – pose of the right sole, sole to world; its translation is ignored
+    /// * `angular_rate`, `velocity` – angular rate and velocity of the right sole's origin, in world axes (rad/s, m/s)
     pub fn set_state(
         &mut self,
         tree: &Tree,
@@ -91,7 +92,7 @@ impl ArticulatedBody {
         rates: &JointVector,
     ) {
         let at_origin = Isometry3::from_parts(Vector3::zeros().into(), orientation.rotation);
-        self.kinematics.float(tree, &at_origin, angles);
+        self.kinematics.compute_floating_base(tree, &at_origin, angles);
         self.velocity[BASE] = spatial(angular_rate, velocity);
         self.set_rigid_body(tree, BASE);
 
@@ -108,7 +109,7 @@ impl ArticulatedBody {
         }
     }
 
-    /// The link's own inertia, and the wrench that its present velocity needs.
+    /// The link's own inertia, and the wrench that its velocity needs at zero acceleration.
     #[inline]
     fn set_rigid_body(&mut self, tree: &Tree, joint: Joint) {
         let Some(body) = &tree.nodes[joint].body else {
@@ -136,10 +137,10 @@ impl ArticulatedBody {
         self.rigid_bias[joint] = cross_force(&velocity, &(*inertia * velocity));
     }
 
-    /// Second stage: the accelerations under joint torques, outside loads and gravity.
+    /// Second stage: the accelerations under joint torques, external loads and gravity.
     ///
-    /// * `torques` – of the joints [N·m]; the unpowered two are ignored
-    /// * `armature` – inertia added at each joint's rotation: rotors, and what implicit servos ask for [kg·m²]
+    /// * `torques` – joint torques (N·m); those of the two unpowered joints are ignored
+    /// * `armature` – inertia added to each joint's rotation, by rotors and implicitly integrated servos (kg·m²)
     pub fn accelerations(
         &mut self,
         tree: &Tree,
@@ -150,7 +151,7 @@ impl ArticulatedBody {
         self.inertia = self.rigid_inertia;
         self.bias = self.rigid_bias;
         for load in loads {
-            // The load yields to true accelerations; those computed here have gravity's upward one in them.
+            // The load decreases with the true acceleration; those computed here contain gravity's upward one.
             let at_rest = load.added_inertia.fixed_columns::<3>(3) * -self.gravity;
             self.inertia[load.link] += load.added_inertia;
             self.bias[load.link] -= spatial(load.wrench.moment, load.wrench.force) + at_rest;
@@ -194,7 +195,7 @@ impl ArticulatedBody {
         Accelerations { base_angular: angular, base_linear: linear + rate.cross(&velocity) + self.gravity, joints }
     }
 
-    /// After [`ArticulatedBody::accelerations`]: spatial acceleration of a link, gravity's free fall included.
+    /// Spatial acceleration of a link, free fall included. Valid after [`ArticulatedBody::accelerations`].
     pub fn link_acceleration(&self, link: Joint) -> Vector6<f64> {
         self.acceleration[link] + spatial(Vector3::zeros(), self.gravity)
     }
@@ -214,8 +215,8 @@ fn split(vector: &Vector6<f64>) -> (Vector3<f64>, Vector3<f64>) {
 #[inline(always)]
 fn cross_motion(velocity: &Vector6<f64>, motion: &Vector6<f64>) -> Vector6<f64> {
     let (angular, linear) = split(velocity);
-    let (turn, shift) = split(motion);
-    spatial(angular.cross(&turn), angular.cross(&shift) + linear.cross(&turn))
+    let (rotation, translation) = split(motion);
+    spatial(angular.cross(&rotation), angular.cross(&translation) + linear.cross(&rotation))
 }
 
 /// `v ×* f` for wrenches.

@@ -1,19 +1,20 @@
-//! The angle of a direction, the same bits on every machine and without a branch, as [`sin_cos`](crate::sin_cos).
+//! The angle of a direction, the same bits on every machine and without a branch, as [`sin_cos`](crate::sin_cos()).
 //!
-//! The ratio of the shorter to the longer component is reduced to ±7/16 by the nearest of atan 0, atan ½ and atan 1, and
-//! goes into the minimax polynomial of FreeBSD's msun (`s_atan.c`). The reduction works on the components themselves, so
-//! that one division serves both; with constants beyond 53 bits the result is within 1.5 units in the last place.
+//! The ratio of the shorter to the longer component is reduced to ±7/16 by the nearest of atan 0, atan ½ and atan 1,
+//! and goes into the minimax polynomial of FreeBSD's msun (`s_atan.c`). The reduction works on the components
+//! themselves, so that one division serves both; with constants beyond 53 bits the result is within 1.5 units in the
+//! last place.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-/// What the constants lack to the true values.
+/// The parts of the constants beyond 53 bits.
 const FRAC_PI_4_REST: f64 = 3.061_616_997_868_383e-17;
 const FRAC_PI_2_REST: f64 = 6.123_233_995_736_766e-17;
 const PI_REST: f64 = 1.224_646_799_147_353_2e-16;
 const ATAN_HALF: f64 = 0.463_647_609_000_806_1;
 const ATAN_HALF_REST: f64 = 2.269_877_745_296_168_7e-17;
 
-/// Angle of the direction (x, y) from the x axis towards the y axis [rad], −π to π; 0 where there is no direction.
+/// Angle of the direction (x, y) from the x axis towards the y axis (rad), −π to π; 0 for the zero vector.
 ///
 /// Components up to 1e307; NaN if one is NaN or both are infinite.
 #[inline(always)]
@@ -74,7 +75,7 @@ mod tests {
     }
 
     #[test]
-    fn agrees_with_the_standard_library_all_round() {
+    fn atan2_agrees_with_the_standard_library_in_every_direction() {
         for step in -300_000..=300_000 {
             let angle = f64::from(step) * 1.047_197e-5;
             let length = 2.0_f64.powi(step % 60);
@@ -83,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn agrees_at_very_unlike_components() {
+    fn atan2_agrees_for_components_of_very_different_size() {
         for exponent in -300..=300 {
             for (y, x) in [(1.7, 1.0), (-1.7, 1.0), (1.7, -1.0), (-1.7, -1.0)] {
                 check(y * 10.0_f64.powi(exponent), x);
@@ -93,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn agrees_where_the_pieces_meet() {
+    fn atan2_agrees_where_its_pieces_meet() {
         for edge in [0.4375, 0.5, 0.6875, 1.0] {
             for near in [-4e-16, -1e-16, 0.0, 1e-16, 4e-16] {
                 for (y, x) in [(1.0, edge + near), (edge + near, 1.0), (-1.0, -edge - near), (-edge - near, -1.0)] {
@@ -104,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn axes_have_their_angles_and_no_direction_has_none() {
+    fn atan2_is_exact_on_the_axes_and_zero_for_the_zero_vector() {
         use std::f64::consts::{FRAC_PI_2, PI};
         assert_eq!([atan2(0.0, 2.0), atan2(3.0, 0.0), atan2(0.0, -1.0)], [0.0, FRAC_PI_2, PI]);
         assert_eq!([atan2(-3.0, 0.0), atan2(-0.0, -1.0)], [-FRAC_PI_2, -PI]);
@@ -114,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_stays_no_number() {
+    fn atan2_of_nan_is_nan() {
         assert!(atan2(f64::NAN, 1.0).is_nan());
         assert!(atan2(1.0, f64::NAN).is_nan());
     }

@@ -1,5 +1,5 @@
-//! Many motions at once: the ground wrench, and with it the zero-moment point, of eight motions in the lanes of vector
-//! registers. For candidates that are compared and previews that are played ahead.
+//! Several motions at once: the ground wrench, and with it the zero-moment point, of eight motions in the lanes of
+//! vector registers. For comparing candidates and for looking ahead.
 //!
 //! The recursion is that of [`NewtonEuler`](crate::NewtonEuler), without torques. The arithmetic is the same on every
 //! processor, so the bits are, too; only the width of the registers is chosen at run time.
@@ -10,27 +10,27 @@ use nalgebra::Vector3;
 use crate::Tree;
 use crate::lanes::{LANES, Lanes, Vectors};
 use crate::sin_cos::sin_cos;
-use crate::tree::Turn;
+use crate::tree::JointAxis;
 
-/// How a link is placed and moves, told at its origin in world axes.
+/// Pose and motion of a link in each lane, at the link's origin in world axes.
 #[derive(Clone, Copy, Debug)]
-struct Link {
-    /// Columns of the rotation to world axes.
+struct LinkLanes {
+    /// Columns of the rotation from link to world axes.
     columns: [Vectors; 3],
     origin: Vectors,
     rate: Vectors,
     angular_acceleration: Vectors,
-    /// Of the origin, less gravity.
+    /// Acceleration of the link's origin, minus that of free fall.
     acceleration: Vectors,
 }
 
-/// Eight motions, joint by joint, and what their links do.
+/// Inverse dynamics of eight motions: their ground wrenches.
 #[derive(Clone, Debug)]
 pub struct Batch {
     angles: PerJoint<Lanes>,
     rates: PerJoint<Lanes>,
     accelerations: PerJoint<Lanes>,
-    links: PerJoint<Link>,
+    links: PerJoint<LinkLanes>,
     force: Vectors,
     moment: Vectors,
 }
@@ -42,7 +42,7 @@ impl Default for Batch {
             angles: zero,
             rates: zero,
             accelerations: zero,
-            links: PerJoint([Link::GROUND; Joint::COUNT]),
+            links: PerJoint([LinkLanes::GROUND; Joint::COUNT]),
             force: Vectors::ZERO,
             moment: Vectors::ZERO,
         }
@@ -50,7 +50,7 @@ impl Default for Batch {
 }
 
 impl Batch {
-    /// Puts a motion, told in support coordinates, into a lane below [`LANES`].
+    /// Puts a motion, in support coordinates, into a lane below [`LANES`].
     #[inline]
     pub fn set(&mut self, lane: usize, motion: &Motion) {
         for index in 0..Joint::COUNT {
@@ -60,23 +60,23 @@ impl Batch {
         }
     }
 
-    /// Computes what all motions need of the ground with the right sole held at O.
+    /// Computes the ground wrenches that the motions need with the right sole held at O.
     pub fn compute(&mut self, tree: &Tree) {
         #[cfg(target_arch = "x86_64")]
         {
             if std::arch::is_x86_feature_detected!("avx512f") {
-                // SAFETY: the processor was asked.
+                // SAFETY: the processor supports it.
                 return unsafe { self.compute_with_avx512(tree) };
             }
             if std::arch::is_x86_feature_detected!("avx2") {
-                // SAFETY: the processor was asked.
+                // SAFETY: the processor supports it.
                 return unsafe { self.compute_with_avx2(tree) };
             }
         }
         self.compute_portably(tree);
     }
 
-    /// The ground's wrench about O on the motion in a lane, in support axes.
+    /// Wrench of the ground on the robot, about O in support axes, for the motion in a lane.
     pub fn ground(&self, lane: usize) -> Wrench {
         Wrench { force: self.force.lane(lane), moment: self.moment.lane(lane) }
     }
@@ -99,10 +99,10 @@ impl Batch {
         for joint in Joint::ALL {
             let node = &tree.nodes[joint];
             let (placed, rest) = self.links.0.split_at_mut(joint.index());
-            let parent = node.parent.map_or(&Link::GROUND, |parent| &placed[parent.index()]);
+            let parent = node.parent.map_or(&LinkLanes::GROUND, |parent| &placed[parent.index()]);
             let link = &mut rest[0];
 
-            let axis = link.turn_from(parent, node.turn, self.angles[joint]);
+            let axis = link.rotate_from(parent, node.axis, self.angles[joint]);
             let spin = axis * self.rates[joint];
             link.rate = parent.rate + spin;
             link.angular_acceleration =
@@ -124,8 +124,8 @@ impl Batch {
     }
 }
 
-impl Link {
-    const GROUND: Link = Link {
+impl LinkLanes {
+    const GROUND: LinkLanes = LinkLanes {
         columns: [
             Vectors { x: Lanes([1.0; LANES]), ..Vectors::ZERO },
             Vectors { y: Lanes([1.0; LANES]), ..Vectors::ZERO },
@@ -137,20 +137,20 @@ impl Link {
         acceleration: Vectors { z: Lanes([GRAVITY; LANES]), ..Vectors::ZERO },
     };
 
-    /// Takes its rotation from its parent's and gives the joint's axis.
+    /// Computes the rotation from that of the parent, and returns the joint's axis.
     #[inline(always)]
-    fn turn_from(&mut self, parent: &Link, turn: Turn, angle: Lanes) -> Vectors {
+    fn rotate_from(&mut self, parent: &LinkLanes, joint_axis: JointAxis, angle: Lanes) -> Vectors {
         let [x, y, z] = parent.columns;
         let (mut sine, mut cosine) = (Lanes::ZERO, Lanes::ZERO);
         for lane in 0..LANES {
             (sine.0[lane], cosine.0[lane]) = sin_cos(angle.0[lane]);
         }
         let axis;
-        (self.columns, axis) = match turn {
-            Turn::X => ([x, y * cosine + z * sine, z * cosine - y * sine], x),
-            Turn::Y => ([x * cosine - z * sine, y, x * sine + z * cosine], y),
-            Turn::Z => ([x * cosine + y * sine, y * cosine - x * sine, z], z),
-            Turn::About(axis) => {
+        (self.columns, axis) = match joint_axis {
+            JointAxis::X => ([x, y * cosine + z * sine, z * cosine - y * sine], x),
+            JointAxis::Y => ([x * cosine - z * sine, y, x * sine + z * cosine], y),
+            JointAxis::Z => ([x * cosine + y * sine, y * cosine - x * sine, z], z),
+            JointAxis::About(axis) => {
                 let along = parent.across(&axis);
                 (
                     [
@@ -165,7 +165,7 @@ impl Link {
         axis
     }
 
-    /// A vector of link coordinates in world axes. Most have one or two components that are not zero.
+    /// A vector in link coordinates, transformed to world axes. Most have one or two components that are not zero.
     #[inline(always)]
     fn across(&self, vector: &Vector3<f64>) -> Vectors {
         let mut sum = Vectors::ZERO;
@@ -177,7 +177,7 @@ impl Link {
         sum
     }
 
-    /// Acceleration of a point at `arm` over that of the origin.
+    /// Acceleration of a point of the link at `arm` from its origin, relative to that of the origin.
     #[inline(always)]
     fn swept(&self, arm: &Vectors) -> Vectors {
         self.angular_acceleration.cross(arm) + self.rate.cross(&self.rate.cross(arm))
@@ -197,6 +197,7 @@ impl Link {
 
 #[cfg(test)]
 mod tests {
+    use config::Config;
     use model::{JointVector, Mechanism};
 
     use super::*;
@@ -217,7 +218,7 @@ mod tests {
 
     /// The scalar recursion is the oracle.
     #[test]
-    fn every_lane_is_what_newton_and_euler_say() {
+    fn every_lane_of_a_batch_agrees_with_newton_euler() {
         for mechanism in mechanisms() {
             let tree = Tree::new(&mechanism);
             let mut batch = Batch::default();
@@ -235,7 +236,7 @@ mod tests {
 
     /// Narrow and wide registers compute the same bits.
     #[test]
-    fn the_bits_do_not_depend_on_the_processor() {
+    fn the_bits_of_a_batch_do_not_depend_on_the_register_width() {
         let tree = Tree::new(&mechanisms()[0]);
         let mut wide = Batch::default();
         for lane in 0..LANES {

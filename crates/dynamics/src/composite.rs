@@ -1,4 +1,4 @@
-//! Rigid bodies as one: what the links beyond a joint weigh together, about the common origin.
+//! Composite rigid bodies: the inertia of the links beyond a joint as one body, about the common origin.
 
 use model::{Joint, Wrench};
 use nalgebra::{Matrix3, Vector3};
@@ -9,11 +9,11 @@ use crate::{Kinematics, Tree};
 /// Mass, first and second moment of rigid bodies that move as one, in world axes about the common origin.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Composite {
-    /// [kg]
+    /// Mass of the bodies (kg).
     pub mass: f64,
-    /// Mass times centre of mass [kg·m].
+    /// Mass times centre of mass (kg·m).
     pub first: Vector3<f64>,
-    /// Rotational inertia [kg·m²].
+    /// Rotational inertia (kg·m²).
     pub second: Matrix3<f64>,
 }
 
@@ -36,7 +36,7 @@ impl Composite {
         Self { mass: body.mass, first, second: about_com + about_origin }
     }
 
-    /// Mass times a field: momentum of velocities, the wrench of accelerations.
+    /// Inertia times a motion field: the momentum for a field of velocities, the wrench for one of accelerations.
     #[inline(always)]
     pub fn times(&self, field: &Twist) -> Wrench {
         Wrench {

@@ -1,17 +1,18 @@
-//! Energy, the oracle of every simulation.
+//! Mechanical energy: an oracle for tests of the simulation, not used by the product.
 
 use model::{GRAVITY, JointVector};
 use nalgebra::Vector3;
 
 use crate::{Kinematics, Tree};
 
-/// Height energy against the world's z = 0 [J].
+/// Potential energy relative to the world's z = 0 (J). An oracle for tests.
 pub fn potential_energy(tree: &Tree, kinematics: &Kinematics) -> f64 {
     tree.mass * GRAVITY * kinematics.com(tree).z
 }
 
-/// Energy of motion of the links [J]; rotors count apart. `velocity` and `angular_rate` are the right sole's, in world
-/// axes [m/s, rad/s].
+/// Kinetic energy of the links, without that of the rotors (J). An oracle for tests.
+///
+/// `angular_rate` (rad/s) and `velocity` (m/s) are those of the right sole, in world axes.
 pub fn kinetic_energy(
     tree: &Tree,
     kinematics: &Kinematics,

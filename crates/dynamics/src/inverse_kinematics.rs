@@ -1,32 +1,33 @@
 //! Leg inverse kinematics: six joints that bring one end of a leg into a pose.
 //!
-//! Newton's method on the geometric Jacobian. It reads the axes from the mechanism, so it serves every axis reading, and
-//! with the angles of a moment ago as a first guess it needs two or three iterations.
+//! Newton's method on the geometric Jacobian. It reads the axes from the mechanism, so it serves every axis reading,
+//! and with the angles of a moment ago as a first guess it needs two or three iterations.
 
 use model::{Joint, JointVector, Side};
 use nalgebra::{Isometry3, Matrix6, UnitQuaternion, Vector3, Vector6};
 
 use crate::{Kinematics, Tree};
 
-/// Residual below which a pose counts as reached [m and rad].
+/// Residual below which a pose counts as reached (m, rad).
 pub(crate) const TOLERANCE: f64 = 1e-12;
+/// Most Newton steps; two or three are usual.
 const ITERATIONS_MAX: usize = 40;
-/// Longest Newton step [rad]; a stretched leg asks for wild ones.
+/// Longest Newton step of a joint (rad); near the stretched leg full steps would diverge.
 const STEP_MAX: f64 = 0.3;
 
-/// A leg as a chain of six joints; the right one is walked from foot to pelvis, the left one from pelvis to foot.
+/// A leg as a chain of six joints: the right one from foot to pelvis, the left one from pelvis to foot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Leg(pub Side);
 
-/// The pose cannot be reached, or only through a stretched knee: the distance that remained [m or rad].
+/// The pose cannot be reached, or only through a stretched knee.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unreachable {
-    /// Largest component of what is left [m or rad].
+    /// Largest component of the remaining difference of poses (m, rad).
     pub residual: f64,
 }
 
 impl Leg {
-    /// From the ground up for the right leg, from the pelvis down for the left one.
+    /// The joints of the chain: from the ground up for the right leg, from the pelvis down for the left one.
     pub const fn joints(self) -> [Joint; 6] {
         use Joint::*;
         match self.0 {
@@ -47,10 +48,10 @@ impl Leg {
 /// # Errors
 /// [`Unreachable`] leaves the closest angles found.
 pub fn solve_leg(tree: &Tree, leg: Leg, target: &Isometry3<f64>, angles: &mut JointVector) -> Result<(), Unreachable> {
-    solve_leg_from(Kinematics::standing(tree, angles), tree, leg, target, angles)
+    solve_leg_from(Kinematics::fixed_base(tree, angles), tree, leg, target, angles)
 }
 
-/// As [`solve_leg`], with what carries the leg placed already.
+/// As [`solve_leg`], with the links that carry the leg placed already.
 pub(crate) fn solve_leg_from(
     mut kinematics: Kinematics,
     tree: &Tree,
@@ -60,7 +61,7 @@ pub(crate) fn solve_leg_from(
 ) -> Result<(), Unreachable> {
     let mut residual = f64::INFINITY;
     for _ in 0..ITERATIONS_MAX {
-        // What carries the leg stays where it is.
+        // The links that carry the leg stay where they are.
         kinematics.chain(tree, angles, leg.joints()[0].index()..leg.end().index() + 1);
         let end = kinematics.link_to_world(leg.end());
         let miss = pose_difference(&end, target);
@@ -86,15 +87,15 @@ pub(crate) fn solve_leg_from(
     if residual < 1e3 * TOLERANCE { Ok(()) } else { Err(Unreachable { residual }) }
 }
 
-/// Translation [m] and rotation vector [rad] that lead from one pose to another, in world axes.
+/// Translation (m) and rotation vector (rad) from one pose to another, in world axes.
 fn pose_difference(from: &Isometry3<f64>, to: &Isometry3<f64>) -> Vector6<f64> {
     let shift: Vector3<f64> = to.translation.vector - from.translation.vector;
-    let turn = rotation_vector(&(to.rotation * from.rotation.inverse()));
-    Vector6::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z)
+    let rotation = rotation_vector(&(to.rotation * from.rotation.inverse()));
+    Vector6::new(shift.x, shift.y, shift.z, rotation.x, rotation.y, rotation.z)
 }
 
-/// The rotation vector to first order, which is all that Newton's last steps need: no function of the system's
-/// mathematical library, whose last bits differ from machine to machine, gets into the result.
+/// The rotation vector to first order, which is enough for Newton's last steps. So no function of the system's
+/// mathematical library, whose last bits differ from machine to machine, enters the result.
 fn rotation_vector(rotation: &UnitQuaternion<f64>) -> Vector3<f64> {
     rotation.imag() * if rotation.w < 0.0 { -2.0 } else { 2.0 }
 }

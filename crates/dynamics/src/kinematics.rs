@@ -1,8 +1,8 @@
-//! Where every link is.
+//! Forward kinematics: the poses of all links.
 
 use std::ops::Range;
 
-use model::{Joint, JointVector, Mechanism, PerJoint, Side};
+use model::{ComState, Joint, JointVector, Mechanism, PerJoint, Side};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use crate::Tree;
@@ -11,11 +11,11 @@ use crate::sin_cos::SinCos;
 /// Poses of all links, in world axes.
 #[derive(Clone, Debug)]
 pub struct Kinematics {
-    /// Maps link coordinates to world axes.
+    /// Orientation of each link, a rotation matrix (-): maps link coordinates to world axes.
     pub rotation: PerJoint<Matrix3<f64>>,
-    /// Origin of each link, on its joint [m].
+    /// Position of each link's origin, on its joint (m).
     pub origin: PerJoint<Vector3<f64>>,
-    /// Axis of each joint.
+    /// Axis of each joint, a unit vector in world axes.
     pub axis: PerJoint<Vector3<f64>>,
 }
 
@@ -30,43 +30,44 @@ impl Default for Kinematics {
 }
 
 impl Kinematics {
-    /// The robot standing with its right sole at O; joints 1 and 2 tip it on the ground.
-    pub fn standing(tree: &Tree, angles: &JointVector) -> Self {
+    /// The poses with the right sole at O; joints 1 and 2 tip the sole on the ground.
+    pub fn fixed_base(tree: &Tree, angles: &JointVector) -> Self {
         let mut kinematics = Self::default();
-        kinematics.stand(tree, angles);
+        kinematics.compute_fixed_base(tree, angles);
         kinematics
     }
 
-    /// The same as far as a link of the chain that leads from the right sole over the pelvis to the left sole; links beyond
-    /// it are nowhere.
+    /// As [`Kinematics::fixed_base`], up to a link of the chain from the right sole over the pelvis to the left sole.
+    /// The poses of the links beyond it are not computed.
     #[inline]
-    pub fn standing_up_to(tree: &Tree, angles: &JointVector, link: Joint) -> Self {
+    pub fn fixed_base_up_to(tree: &Tree, angles: &JointVector, link: Joint) -> Self {
         let mut kinematics = Self::default();
         kinematics.chain(tree, angles, 0..link.index() + 1);
         kinematics
     }
 
-    /// As [`Kinematics::standing`], in place.
+    /// As [`Kinematics::fixed_base`], in place.
     #[inline]
-    pub fn stand(&mut self, tree: &Tree, angles: &JointVector) {
+    pub fn compute_fixed_base(&mut self, tree: &Tree, angles: &JointVector) {
         self.chain(tree, angles, 0..Joint::COUNT);
     }
 
-    /// The floating robot, whose right sole frame has the given pose.
+    /// The poses of the floating robot; `right_sole` is the pose of its right sole, sole to world.
     #[inline]
-    pub fn float(&mut self, tree: &Tree, right_sole: &Isometry3<f64>, angles: &JointVector) {
+    pub fn compute_floating_base(&mut self, tree: &Tree, right_sole: &Isometry3<f64>, angles: &JointVector) {
         self.place(Mechanism::foot(Side::Right), right_sole);
         self.chain(tree, angles, Joint::FIRST_POWERED.index()..Joint::COUNT);
     }
 
-    /// Puts one link where it is told.
+    /// Sets the pose of one link.
     #[inline(always)]
     pub(crate) fn place(&mut self, link: Joint, link_to_world: &Isometry3<f64>) {
         self.rotation[link] = link_to_world.rotation.to_rotation_matrix().into_inner();
         self.origin[link] = link_to_world.translation.vector;
     }
 
-    /// Places the links of `joints`, told by their indices, whose parents are placed already or among them.
+    /// Computes the poses of the links of `joints`, given by index. Their parents must have poses already or be among
+    /// them.
     #[inline(always)]
     pub(crate) fn chain(&mut self, tree: &Tree, angles: &JointVector, joints: Range<usize>) {
         let turned = SinCos::of(angles, joints.clone());
@@ -76,7 +77,7 @@ impl Kinematics {
                 Some(parent) => (self.rotation[parent], self.origin[parent]),
                 None => (Matrix3::identity(), Vector3::zeros()),
             };
-            let (rotation, axis) = node.turn.apply(&parent_rotation, turned.at(joint));
+            let (rotation, axis) = node.axis.apply(&parent_rotation, turned.at(joint));
             self.rotation[joint] = rotation;
             self.axis[joint] = axis;
             self.origin[joint] = match node.origin {
@@ -97,7 +98,7 @@ impl Kinematics {
         self.link_to_world(Mechanism::foot(side)) * Translation3::from(mechanism.sole_in_foot(side))
     }
 
-    /// Centre of mass of the whole robot [m].
+    /// Centre of mass of the whole robot (m).
     pub fn com(&self, tree: &Tree) -> Vector3<f64> {
         let mut moment = Vector3::zeros();
         for (link, node) in tree.nodes.iter() {
@@ -108,7 +109,12 @@ impl Kinematics {
         moment / tree.mass
     }
 
-    /// Velocity of the centre of mass [m/s] and angular rate of every link [rad/s], the right sole at rest.
+    /// The centre of mass of a motion whose support sole is flat and at rest, in support coordinates.
+    pub fn com_state(&self, tree: &Tree, rates: &JointVector) -> ComState {
+        ComState { position: self.com(tree), velocity: self.com_velocity(tree, rates).0 }
+    }
+
+    /// Velocity of the centre of mass (m/s) and angular rate of every link (rad/s), the right sole at rest.
     pub fn com_velocity(&self, tree: &Tree, rates: &JointVector) -> (Vector3<f64>, PerJoint<Vector3<f64>>) {
         // About the common origin each joint moves what it carries with `rate · (axis, origin × axis)`.
         let mut angular = PerJoint([Vector3::zeros(); Joint::COUNT]);

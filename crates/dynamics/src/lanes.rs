@@ -1,20 +1,21 @@
-//! Numbers and vectors of eight motions side by side, in plain loops that become vector code.
+//! Numbers and vectors of eight motions side by side, in plain loops that the compiler turns into vector code.
 //!
-//! All is inlined into the one function that says how wide registers are: what is not would be compiled for narrow ones.
+//! Everything is inlined into the one function that sets the width of the registers; otherwise it would be compiled for
+//! narrow ones.
 
 use std::ops::{Add, Mul, Sub};
 
 use nalgebra::Vector3;
 
-/// How many motions are computed at once.
+/// Number of motions that a [`Batch`](crate::Batch) computes at once.
 pub const LANES: usize = 8;
 
-/// One number of each motion.
+/// A number for each motion.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub(crate) struct Lanes(pub [f64; LANES]);
 
-/// A vector of each motion.
+/// A vector for each motion.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vectors {
     pub x: Lanes,
@@ -82,7 +83,7 @@ impl Vectors {
         Vectors { x: self.x.times(factor), y: self.y.times(factor), z: self.z.times(factor) }
     }
 
-    /// Turned about a unit vector, along which it has the component `share` (Rodrigues' formula).
+    /// The vector rotated about the unit vector `axis`, along which it has the component `share` (Rodrigues' formula).
     #[inline(always)]
     pub fn about(&self, axis: &Vectors, share: f64, sine: Lanes, cosine: Lanes) -> Vectors {
         *self * cosine + axis.cross(self) * sine + axis.times(share) * (Lanes([1.0; LANES]) - cosine)

@@ -1,11 +1,12 @@
-//! The usual leg, solved in closed form: a hip that turns about one point, a knee, an ankle that turns about one point.
+//! Inverse kinematics of the usual leg in closed form: hip axes that meet in one point, a knee, ankle axes that meet in
+//! one point.
 //!
 //! From the foot up the joints are ankle roll (x), ankle pitch (y), knee (y), hip pitch (y), hip yaw (z), hip roll (x).
-//! The distance from ankle to hip gives the knee (law of cosines), the direction of the hip seen from the foot gives the
-//! ankle, and what rotation is left gives the hip; as S. Kajita et al., "Introduction to Humanoid Robotics", Springer
-//! 2014, section 2.5, with our order of axes. Every angle is that of a direction whose two components are polynomials of
-//! the given poses and a few square roots, so that nothing is lost near the stretched leg and no angle is needed to
-//! find the next.
+//! The distance from ankle to hip gives the knee (law of cosines), the direction of the hip seen from the foot gives
+//! the ankle, and the remaining rotation gives the hip; as S. Kajita et al., "Introduction to Humanoid Robotics",
+//! Springer 2014, section 2.5, with our order of axes. Every angle is that of a direction whose two components are
+//! polynomials of the given poses and a few square roots, so that nothing is lost near the stretched leg and no angle
+//! is needed to find the next.
 
 use model::{Joint, JointVector, Mechanism, Side};
 use nalgebra::{Isometry3, Vector3};
@@ -13,25 +14,25 @@ use nalgebra::{Isometry3, Vector3};
 use crate::atan2;
 use crate::inverse_kinematics::{Leg, TOLERANCE, Unreachable};
 
-/// A leg of that build: its lengths, and how its joints count.
+/// A leg of that structure: its lengths and the senses of its joints.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LegGeometry {
-    /// From the foot up.
+    /// The joints from the foot up.
     joints: [Joint; 6],
-    /// 1 where a positive angle turns what is above, seen from what is below, about +x, +y or +z; else −1.
+    /// 1 where a positive angle rotates the upper link against the lower one about +x, +y or +z; else −1.
     senses: [f64; 6],
-    /// Ankle in the foot link's frame [m].
+    /// Position of the ankle in the foot link's frame (m).
     ankle_in_foot: Vector3<f64>,
-    /// Hip in the pelvis link's frame [m].
+    /// Position of the hip in the pelvis link's frame (m).
     hip_in_pelvis: Vector3<f64>,
-    /// Ankle to knee [m].
+    /// Distance from ankle to knee (m).
     shank: f64,
-    /// Knee to hip [m].
+    /// Distance from knee to hip (m).
     thigh: f64,
 }
 
 impl LegGeometry {
-    /// `None` where the mechanism's leg is built otherwise.
+    /// The geometry of a leg; `None` if the mechanism's leg has another structure.
     pub fn new(mechanism: &Mechanism, side: Side) -> Option<Self> {
         let up = if side == Side::Right { 1.0 } else { -1.0 };
         let chain = Leg(side).joints();
@@ -49,11 +50,11 @@ impl LegGeometry {
 
         let axes = [Vector3::x(), Vector3::y(), Vector3::y(), Vector3::y(), Vector3::z(), Vector3::x()];
         let mut senses = [up; 6];
-        for ((sense, joint), wanted) in senses.iter_mut().zip(joints).zip(axes) {
+        for ((sense, joint), usual) in senses.iter_mut().zip(joints).zip(axes) {
             let axis = mechanism.links[joint].axis.into_inner();
-            if axis == -wanted {
+            if axis == -usual {
                 *sense = -up;
-            } else if axis != wanted {
+            } else if axis != usual {
                 return None;
             }
         }
@@ -79,14 +80,14 @@ impl LegGeometry {
         angles: &mut JointVector,
     ) -> Result<(), Unreachable> {
         let pelvis_to_foot = foot_to_support.inv_mul(pelvis_to_support);
-        let turn = pelvis_to_foot.rotation.to_rotation_matrix().into_inner();
-        let hip_in_foot = pelvis_to_foot.translation.vector + turn * self.hip_in_pelvis - self.ankle_in_foot;
+        let rotation = pelvis_to_foot.rotation.to_rotation_matrix().into_inner();
+        let hip_in_foot = pelvis_to_foot.translation.vector + rotation * self.hip_in_pelvis - self.ankle_in_foot;
         let squared = hip_in_foot.norm_squared();
         if !squared.is_finite() {
             return Err(Unreachable { residual: f64::INFINITY });
         }
 
-        // The knee's cosine and sine times 2·shank·thigh; it bends backward, stays straight or folded out of reach.
+        // The knee's cosine and sine times 2·shank·thigh; it bends backward, and stays straight or folded out of reach.
         let (longest, shortest) = (self.shank + self.thigh, self.shank - self.thigh);
         let spare = (longest * longest - squared).max(0.0) * (squared - shortest * shortest).max(0.0);
         let bend = squared - self.shank * self.shank - self.thigh * self.thigh;
@@ -94,7 +95,7 @@ impl LegGeometry {
         // The hip in the shank's frame, 2·shank times as far: z is the cosine's and x the sine's axis.
         let hip_in_shank = Direction { cosine: 2.0 * self.shank * self.shank + knee.cosine, sine: knee.sine };
 
-        // The ankle's roll brings the hip above the pitch axis, its pitch brings the shank beneath the hip.
+        // Ankle roll brings the hip above the pitch axis, ankle pitch brings the shank beneath the hip.
         let height = (hip_in_foot.y * hip_in_foot.y + hip_in_foot.z * hip_in_foot.z).sqrt();
         let ankle_roll = if height > 0.0 {
             Direction { cosine: hip_in_foot.z / height, sine: -hip_in_foot.y / height }
@@ -103,14 +104,14 @@ impl LegGeometry {
         };
         let ankle_pitch = Direction { cosine: height, sine: hip_in_foot.x }.less(hip_in_shank).or_zero();
 
-        // Beyond the ankle's roll all pitches add up: pelvis = pitch · hip yaw · hip roll, of which the first column and
+        // Above the ankle roll all pitches add up: pelvis = pitch · hip yaw · hip roll, of which the first column and
         // the second row are enough.
         let rolled = |column: usize| {
-            let (y, z) = (turn[(1, column)], turn[(2, column)]);
+            let (y, z) = (rotation[(1, column)], rotation[(2, column)]);
             (ankle_roll.cosine * y + ankle_roll.sine * z, ankle_roll.cosine * z - ankle_roll.sine * y)
         };
         let (ahead_y, ahead_z) = rolled(0);
-        let pitch = Direction { cosine: turn[(0, 0)], sine: -ahead_z };
+        let pitch = Direction { cosine: rotation[(0, 0)], sine: -ahead_z };
         let hip_pitch = pitch.less(ankle_pitch).less(knee);
         let level = (pitch.cosine * pitch.cosine + pitch.sine * pitch.sine).sqrt();
         let hip_yaw = Direction { cosine: level, sine: ahead_y };
@@ -127,7 +128,7 @@ impl LegGeometry {
     }
 }
 
-/// An angle by its cosine and sine, both times any length.
+/// An angle by its cosine and sine, both scaled by any positive factor.
 #[derive(Clone, Copy)]
 struct Direction {
     cosine: f64,
@@ -137,7 +138,7 @@ struct Direction {
 impl Direction {
     const ZERO: Self = Self { cosine: 1.0, sine: 0.0 };
 
-    /// The angle zero where there is none.
+    /// The angle, or zero if the direction is undefined.
     #[inline(always)]
     fn or_zero(self) -> Self {
         if self.cosine == 0.0 && self.sine == 0.0 { Self::ZERO } else { self }
@@ -152,7 +153,7 @@ impl Direction {
         }
     }
 
-    /// All angles [rad]. Apart from its caller, where the compiler makes vector code of it.
+    /// The angles (rad). Not inlined, so that the compiler turns the loop into vector code.
     #[inline(never)]
     fn angles(directions: &[Self; 6]) -> [f64; 6] {
         directions.map(|direction| atan2(direction.sine, direction.cosine))

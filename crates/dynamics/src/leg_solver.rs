@@ -1,4 +1,4 @@
-//! Leg inverse kinematics for every mechanism: in closed form where the leg is of the usual build, else by iteration.
+//! Leg inverse kinematics for every mechanism: in closed form where the leg has the usual structure, else by iteration.
 
 use model::{JointVector, Mechanism, Side};
 use nalgebra::Isometry3;
@@ -7,36 +7,38 @@ use crate::inverse_kinematics::{Leg, Unreachable, solve_leg_from};
 use crate::leg_geometry::LegGeometry;
 use crate::{Kinematics, Tree};
 
-/// Finds the six angles of a leg between pelvis and foot. Made once per mechanism, read-only.
+/// Finds the six angles of a leg between pelvis and foot. Created once per mechanism, read-only.
 #[derive(Clone, Copy, Debug)]
 pub struct LegSolver {
-    /// Right and left; `None` where a leg is built otherwise.
+    /// The right and the left leg; `None` if one of them has another structure.
     closed_forms: Option<[LegGeometry; 2]>,
 }
 
 impl LegSolver {
-    /// Reads axes, senses and lengths from the mechanism.
+    /// A solver for the legs of a mechanism.
     pub fn new(mechanism: &Mechanism) -> Self {
         let [right, left] = Side::BOTH.map(|side| LegGeometry::new(mechanism, side));
         Self { closed_forms: right.zip(left).map(|(right, left)| [right, left]) }
     }
 
-    /// Whether the legs are solved in closed form: hip and ankle turn about a point each, ankle roll (x) below ankle
-    /// pitch (y), knee and hip pitch (y) below hip yaw (z) below hip roll (x), and the straight leg is along z.
+    /// Whether the legs are solved in closed form. For tests; the solution is the same by iteration.
+    ///
+    /// That needs hip axes that meet in one point, ankle axes that meet in one point, ankle roll (x) below ankle pitch
+    /// (y), knee and hip pitch (y) below hip yaw (z) below hip roll (x), and a straight leg along z.
     pub fn is_closed_form(&self) -> bool {
         self.closed_forms.is_some()
     }
 
-    /// Puts the six angles of a leg into `angles` that join the pelvis link ([`Leg::end`] of the right leg) to the foot
-    /// link ([`Mechanism::foot`]), each given as a map from link to support coordinates. No other angle is read.
+    /// Writes into `angles` the six angles of a leg that connect the pelvis link ([`Leg::end`] of the right leg) to the
+    /// foot link ([`Mechanism::foot`]); both poses map link to support coordinates. No other angle is read.
     ///
-    /// In closed form the knee bends backward, the hip is above the foot, and the hip turns by less than 90°, which is
-    /// where people keep them: the leg's own angles are not read, either. By iteration they are the first guess.
+    /// In closed form the knee bends backward, the hip is above the foot, the hip yaws by less than 90°, and the leg's
+    /// own angles are not read. By iteration they are the first guess.
     ///
     /// # Errors
-    /// [`Unreachable`], with the distance that is missing, if the leg is too short or cannot fold so far. The angles are
-    /// then the closest: the pelvis is turned as wanted, the stretched (folded) leg points at its hip. If a pose has
-    /// components that are not finite, the residual is infinite.
+    /// [`Unreachable`], with the distance that is missing, if the leg is too short or cannot fold so far. The angles
+    /// are then the closest: the pelvis has the desired orientation, the stretched (folded) leg points at its hip. If a
+    /// pose has components that are not finite, the residual is infinite.
     #[inline]
     pub fn solve(
         &self,

@@ -1,10 +1,10 @@
-//! What physics says of any motion: kinematics, Newton–Euler, articulated body, mass matrix, ZMP, support polygon, time
+//! The dynamics of any motion: kinematics, Newton–Euler, articulated bodies, mass matrix, ZMP, support polygon, time
 //! scaling.
 //!
 //! Every algorithm works in world axes about one common origin (O for the robot on flat ground, the right sole for the
-//! floating robot), so that nothing is transformed from link to link: what a subtree weighs is a plain sum. Nothing
-//! allocates: a [`Tree`] is read-only, results live in structs that are made once and filled in stages, as in Pinocchio's
-//! model and data.
+//! floating robot), so that nothing is transformed from link to link: the inertia of a subtree is a plain sum. Nothing
+//! allocates: a [`Tree`] is read-only, and results live in structs that are created once and filled in stages, as in
+//! Pinocchio's model and data.
 
 mod articulated_body;
 mod atan2;
@@ -18,6 +18,7 @@ mod leg_geometry;
 mod leg_solver;
 mod mass_matrix;
 mod newton_euler;
+mod reference_dynamics;
 mod sin_cos;
 mod support_polygon;
 mod time_scaling;
@@ -37,6 +38,7 @@ pub use lanes::LANES;
 pub use leg_solver::LegSolver;
 pub use mass_matrix::{MassMatrix, mass_matrix};
 pub use newton_euler::{BaseMotion, NewtonEuler};
+pub use reference_dynamics::ReferenceDynamics;
 pub use sin_cos::sin_cos;
 pub use support_polygon::SupportPolygon;
 pub use time_scaling::{wrench_at_speed, zmp_at_speed};

@@ -1,4 +1,5 @@
-//! The mass matrix of the robot standing on its right foot, by composite rigid bodies (Featherstone 2008, §6.2).
+//! The mass matrix of the robot standing on its right foot, by composite rigid bodies (Featherstone 2008, §6.2): an
+//! oracle for tests, not used by the product.
 
 use model::{Joint, PerJoint};
 use nalgebra::SMatrix;
@@ -7,10 +8,10 @@ use crate::composite::Composite;
 use crate::twist::Twist;
 use crate::{Kinematics, Tree};
 
-/// Joint torques per joint acceleration [kg·m²], in the order of [`Joint::ALL`].
+/// Joint torques per joint acceleration (kg·m²), in the order of [`Joint::ALL`].
 pub type MassMatrix = SMatrix<f64, { Joint::COUNT }, { Joint::COUNT }>;
 
-/// The mass matrix in a posture.
+/// The mass matrix in a posture, given by its kinematics with the right sole at O. An oracle for tests.
 pub fn mass_matrix(tree: &Tree, kinematics: &Kinematics) -> MassMatrix {
     let mut composite = PerJoint::from_fn(|joint| Composite::of_link(tree, kinematics, joint));
     let mut matrix = MassMatrix::zeros();
@@ -21,7 +22,8 @@ pub fn mass_matrix(tree: &Tree, kinematics: &Kinematics) -> MassMatrix {
             composite[parent] = composite[parent] + body;
         }
 
-        // Wrench that turns everything beyond the joint at unit acceleration, then its torque at each joint below.
+        // Wrench that accelerates everything beyond the joint by a unit of its acceleration, then its torque at each
+        // joint below.
         let angular = kinematics.axis[joint];
         let wrench = body.times(&Twist { angular, linear: kinematics.origin[joint].cross(&angular) });
         let mut below = Some(joint);

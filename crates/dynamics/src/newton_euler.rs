@@ -9,41 +9,41 @@ use crate::{Kinematics, Tree};
 /// Inverse dynamics and its intermediates.
 #[derive(Clone, Debug)]
 pub struct NewtonEuler {
-    /// Filled first: where every link is.
+    /// Poses of all links. Filled first.
     pub kinematics: Kinematics,
-    /// Filled by the outward pass: how every link moves.
+    /// Motion of every link. Filled by the outward pass.
     pub(crate) links: PerJoint<LinkMotion>,
-    /// Wrench that each link with all beyond it needs from its parent, about the common origin.
-    pub(crate) needs: PerJoint<Wrench>,
-    /// Joint torques [N·m].
+    /// Wrench that each link, with all links beyond it, needs from its parent, about the common origin.
+    pub(crate) wrench: PerJoint<Wrench>,
+    /// Joint torques (N·m).
     pub torques: JointVector,
     /// Wrench of the ground on the robot: about O in support axes, or about the right sole for the floating robot.
     pub ground: Wrench,
 }
 
-/// How a link moves, told at its origin in world axes.
+/// Motion of a link, at its origin in world axes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LinkMotion {
-    /// [rad/s]
+    /// Angular rate of the link (rad/s).
     pub angular_rate: Vector3<f64>,
-    /// [rad/s²]
+    /// Angular acceleration of the link (rad/s²).
     pub angular_acceleration: Vector3<f64>,
-    /// Of the link's origin, less gravity [m/s²].
+    /// Acceleration of the link's origin, minus that of free fall (m/s²).
     pub acceleration: Vector3<f64>,
 }
 
-/// How the right sole of a floating robot moves, in world axes.
+/// Pose and motion of the right sole of a floating robot, in world axes.
 #[derive(Clone, Copy, Debug)]
 pub struct BaseMotion {
-    /// Maps sole coordinates to world coordinates.
+    /// Pose of the sole: maps sole coordinates to world coordinates.
     pub sole_to_world: Isometry3<f64>,
-    /// [rad/s]
+    /// Angular rate of the sole (rad/s).
     pub angular_rate: Vector3<f64>,
-    /// Of the sole's origin [m/s].
+    /// Velocity of the sole's origin (m/s).
     pub velocity: Vector3<f64>,
-    /// [rad/s²]
+    /// Angular acceleration of the sole (rad/s²).
     pub angular_acceleration: Vector3<f64>,
-    /// Of the sole's origin [m/s²].
+    /// Acceleration of the sole's origin (m/s²).
     pub acceleration: Vector3<f64>,
 }
 
@@ -52,7 +52,7 @@ impl Default for NewtonEuler {
         Self {
             kinematics: Kinematics::default(),
             links: PerJoint([LinkMotion::default(); Joint::COUNT]),
-            needs: PerJoint([Wrench::ZERO; Joint::COUNT]),
+            wrench: PerJoint([Wrench::ZERO; Joint::COUNT]),
             torques: JointVector::ZERO,
             ground: Wrench::ZERO,
         }
@@ -60,51 +60,53 @@ impl Default for NewtonEuler {
 }
 
 impl NewtonEuler {
-    /// What a motion needs with the right sole held at O: fills `torques` and `ground`.
+    /// Inverse dynamics of a motion with the right sole fixed at O: fills `torques` and `ground`.
     ///
     /// The two unpowered joints' "torques" are the ground moment about O around their axes: zero when ZMP ≡ O.
     #[inline]
-    pub fn stand(&mut self, tree: &Tree, motion: &Motion) {
-        self.standing_under(tree, motion, GRAVITY);
+    pub fn compute_fixed_base(&mut self, tree: &Tree, motion: &Motion) {
+        self.compute_with_gravity(tree, motion, GRAVITY);
     }
 
-    /// As [`NewtonEuler::stand`] with another gravity [m/s²]; zero leaves the dynamic part alone.
+    /// As [`NewtonEuler::compute_fixed_base`] with another gravity (m/s²); with zero the result is the dynamic part
+    /// alone.
     #[inline]
-    pub fn standing_under(&mut self, tree: &Tree, motion: &Motion, gravity: f64) {
-        self.kinematics.stand(tree, &motion.angles);
+    pub fn compute_with_gravity(&mut self, tree: &Tree, motion: &Motion, gravity: f64) {
+        self.kinematics.compute_fixed_base(tree, &motion.angles);
         let ground = LinkMotion { acceleration: Vector3::new(0.0, 0.0, gravity), ..LinkMotion::default() };
         self.outward(tree, motion, ground, Joint::ALL.into_iter());
         self.ground = self.inward(tree, Joint::ALL.into_iter());
     }
 
-    /// The wrench of the ground alone, about O, that a motion needs with the right sole held at O: fills neither `torques`
-    /// nor `ground`.
+    /// Wrench of the ground about O that a motion needs with the right sole fixed at O. Fills neither `torques` nor
+    /// `ground`.
     #[inline]
     pub fn ground_wrench(&mut self, tree: &Tree, motion: &Motion) -> Wrench {
-        self.kinematics.stand(tree, &motion.angles);
+        self.kinematics.compute_fixed_base(tree, &motion.angles);
         let ground = LinkMotion { acceleration: Vector3::new(0.0, 0.0, GRAVITY), ..LinkMotion::default() };
         self.outward(tree, motion, ground, Joint::ALL.into_iter());
-        self.needs.0.iter().fold(Wrench::ZERO, |sum, needs| sum + *needs)
+        self.wrench.0.iter().fold(Wrench::ZERO, |sum, wrench| sum + *wrench)
     }
 
-    /// What a motion of the floating robot needs: `ground` is the wrench about the right sole's origin that moves it so.
-    pub fn float(&mut self, tree: &Tree, base: &BaseMotion, motion: &Motion) {
+    /// Inverse dynamics of a motion of the floating robot: fills `torques`, and `ground` with the external wrench about
+    /// the right sole's origin that the motion needs.
+    pub fn compute_floating_base(&mut self, tree: &Tree, base: &BaseMotion, motion: &Motion) {
         let foot = Mechanism::foot(Side::Right);
-        self.kinematics.float(tree, &base.sole_to_world, &motion.angles);
+        self.kinematics.compute_floating_base(tree, &base.sole_to_world, &motion.angles);
         self.links[foot] = LinkMotion {
             angular_rate: base.angular_rate,
             angular_acceleration: base.angular_acceleration,
             acceleration: base.acceleration + Vector3::new(0.0, 0.0, GRAVITY),
         };
-        self.needs[foot] = self.body_needs(tree, foot);
+        self.wrench[foot] = self.body_wrench(tree, foot);
         self.outward(tree, motion, LinkMotion::default(), Tree::floating_joints());
         self.inward(tree, Tree::floating_joints());
         self.torques[Joint::FootRoll] = 0.0;
         self.torques[Joint::FootPitch] = 0.0;
-        self.ground = self.needs[foot].about(self.kinematics.origin[foot]);
+        self.ground = self.wrench[foot].about(self.kinematics.origin[foot]);
     }
 
-    /// From the base out: how each link moves, and what its own body needs for it.
+    /// From the base outward: the motion of each link, and the wrench that its own body needs.
     #[inline(always)]
     fn outward(&mut self, tree: &Tree, motion: &Motion, ground: LinkMotion, joints: impl Iterator<Item = Joint>) {
         for joint in joints {
@@ -127,13 +129,13 @@ impl NewtonEuler {
                     + parent.angular_rate.cross(&parent.angular_rate.cross(&arm));
             }
             self.links[joint] = link;
-            self.needs[joint] = self.body_needs(tree, joint);
+            self.wrench[joint] = self.body_wrench(tree, joint);
         }
     }
 
     /// The wrench that a link's own body needs, about the common origin.
     #[inline(always)]
-    fn body_needs(&self, tree: &Tree, joint: Joint) -> Wrench {
+    fn body_wrench(&self, tree: &Tree, joint: Joint) -> Wrench {
         let Some(body) = &tree.nodes[joint].body else { return Wrench::ZERO };
         let link = &self.links[joint];
         let rotation = &self.kinematics.rotation[joint];
@@ -152,17 +154,17 @@ impl NewtonEuler {
         Wrench { force, moment: moment + com.cross(&force) }
     }
 
-    /// From the tips in: each joint bears what all beyond it needs. Gives what the last (the base) needs.
+    /// From the tips inward: each joint transmits the wrench that all links beyond it need. Returns that of the base.
     #[inline(always)]
     fn inward(&mut self, tree: &Tree, joints: impl DoubleEndedIterator<Item = Joint>) -> Wrench {
         let mut ground = Wrench::ZERO;
         for joint in joints.rev() {
-            let needs = self.needs[joint];
-            let about_joint = needs.moment - self.kinematics.origin[joint].cross(&needs.force);
+            let wrench = self.wrench[joint];
+            let about_joint = wrench.moment - self.kinematics.origin[joint].cross(&wrench.force);
             self.torques[joint] = self.kinematics.axis[joint].dot(&about_joint);
             match tree.nodes[joint].parent {
-                Some(parent) => self.needs[parent] = self.needs[parent] + needs,
-                None => ground = ground + needs,
+                Some(parent) => self.wrench[parent] = self.wrench[parent] + wrench,
+                None => ground = ground + wrench,
             }
         }
         ground

@@ -1,7 +1,9 @@
-//! Sine and cosine, the same bits on every machine and without a branch, so that loops over joints become vector code.
+//! Sine and cosine, the same bits on every machine and without a branch, so that loops over joints compile to vector
+//! code.
 //!
 //! The system's libm differs from version to version in the last bit and is called once per value. Here: Cody–Waite
-//! reduction to ±π/4 and the minimax polynomials of FreeBSD's msun (`k_sin.c`, `k_cos.c`); within 2.5·10⁻¹⁶ for |x| ≤ 10⁵, far beyond any joint.
+//! reduction to ±π/4 and the minimax polynomials of FreeBSD's msun (`k_sin.c`, `k_cos.c`); within 2.5·10⁻¹⁶ for |x| ≤
+//! 10⁵, far beyond any joint.
 
 use std::ops::Range;
 
@@ -14,7 +16,7 @@ const HALF_PI_LOW: f64 = 6.077_100_506_506_192e-11;
 /// Adding 1.5·2⁵² rounds to a whole number and leaves it in the low bits.
 const ROUNDING: f64 = 6_755_399_441_055_744.0;
 
-/// Sine and cosine of an angle [rad].
+/// Sine and cosine of an angle (rad).
 #[inline(always)]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     let shifted = angle * TWO_OVER_PI + ROUNDING;
@@ -30,7 +32,7 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
                 + z * (-1.984_126_982_985_795e-4
                     + z * (2.755_731_370_707_006_8e-6
                         + z * (-2.505_076_025_340_686_3e-8 + z * 1.589_690_995_211_55e-10)))));
-    // What rounding takes from 1 − z/2 is given back.
+    // Compensates for the rounding of 1 − z/2.
     let half = 0.5 * z;
     let rough = 1.0 - half;
     let fine = z
@@ -50,7 +52,7 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
     (f64::from_bits(((s & !swap) | (c & swap)) ^ sine_sign), f64::from_bits(((c & !swap) | (s & swap)) ^ cosine_sign))
 }
 
-/// Sines and cosines of some joints, taken in one loop of vector code.
+/// Sines and cosines of some joints' angles, computed in one loop of vector code.
 pub(crate) struct SinCos {
     sines: JointVector,
     cosines: JointVector,
@@ -77,7 +79,7 @@ mod tests {
     use super::sin_cos;
 
     #[test]
-    fn agrees_with_the_standard_library_over_many_turns() {
+    fn sin_cos_agrees_with_the_standard_library_over_many_revolutions() {
         for step in -200_000..=200_000 {
             let angle = f64::from(step) * 1.234_567e-3;
             let (sine, cosine) = sin_cos(angle);
@@ -87,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_stays_no_number() {
+    fn sin_cos_of_nan_or_infinity_is_nan() {
         assert!(sin_cos(f64::NAN).0.is_nan());
         assert!(sin_cos(f64::INFINITY).1.is_nan());
     }

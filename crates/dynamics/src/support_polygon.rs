@@ -1,8 +1,8 @@
-//! The support polygon: the convex hull of what touches the ground.
+//! The support polygon: the convex hull of the contact points.
 
 use nalgebra::Vector2;
 
-/// At most both soles' corners.
+/// Most corners of a support polygon: those of both soles.
 const CORNERS_MAX: usize = 8;
 
 /// A convex polygon on the floor, corners counter-clockwise seen from above.
@@ -12,8 +12,8 @@ pub struct SupportPolygon {
 }
 
 impl SupportPolygon {
-    /// The convex hull of points of the floor [m] (Andrew 1979). Points beyond the eighth are ignored: two soles have no
-    /// more.
+    /// The convex hull of points of the floor (m) (Andrew 1979). Points beyond the eighth are ignored: two soles have
+    /// no more.
     pub fn hull(points: impl IntoIterator<Item = Vector2<f64>>) -> Self {
         let mut sorted: heapless::Vec<Vector2<f64>, CORNERS_MAX> = points.into_iter().take(CORNERS_MAX).collect();
         sorted.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -27,13 +27,12 @@ impl SupportPolygon {
         Self { corners }
     }
 
-    /// The corners, counter-clockwise seen from above [m].
+    /// The corners, counter-clockwise seen from above (m).
     pub fn corners(&self) -> &[Vector2<f64>] {
         &self.corners
     }
 
-    /// Signed distance of a point to the edge [m]: positive inside, negative outside. Nothing on the ground supports
-    /// nothing: −∞.
+    /// Signed distance of a point to the edge (m): positive inside, negative outside; −∞ without contact.
     pub fn margin(&self, point: Vector2<f64>) -> f64 {
         let count = self.corners.len();
         let mut inside = count > 2;
@@ -62,7 +61,7 @@ fn half_hull<'a>(points: impl Iterator<Item = &'a Vector2<f64>>, hull: &mut heap
         {
             side.pop();
         }
-        // Never full: the points are at most as many as there is room.
+        // Never full: there are at most as many points as places.
         let _ = side.push(point);
     }
     side.pop();
@@ -93,26 +92,26 @@ mod tests {
     }
 
     #[test]
-    fn points_within_are_no_corners() {
+    fn points_inside_the_hull_are_no_corners_of_the_support_polygon() {
         assert_eq!(square().corners().len(), 4);
     }
 
     #[test]
-    fn margin_is_positive_inside_zero_on_the_edge_and_negative_outside() {
+    fn the_margin_is_positive_inside_zero_on_the_edge_and_negative_outside() {
         assert!((square().margin(Vector2::new(0.5, 0.4)) - 0.4).abs() < 1e-15);
         assert_eq!(square().margin(Vector2::new(1.0, 0.5)), 0.0);
         assert!((square().margin(Vector2::new(4.0, 5.0)) + 5.0).abs() < 1e-15);
     }
 
     #[test]
-    fn nothing_supports_nothing_and_a_point_only_itself() {
+    fn the_margin_is_minus_infinity_without_contact_and_minus_the_distance_to_a_single_point() {
         assert_eq!(SupportPolygon::hull([]).margin(Vector2::zeros()), f64::NEG_INFINITY);
         let point = SupportPolygon::hull([Vector2::new(1.0, 0.0)]);
         assert_eq!(point.margin(Vector2::new(3.0, 0.0)), -2.0);
     }
 
     #[test]
-    fn two_soles_make_a_hexagon_at_most_octagon() {
+    fn the_support_polygon_of_two_parallel_soles_is_a_hexagon() {
         let sole = |x: f64, y: f64| {
             [(0.21, -0.04), (0.21, 0.04), (-0.07, 0.04), (-0.07, -0.04)].map(|(dx, dy)| Vector2::new(x + dx, y + dy))
         };

@@ -1,31 +1,32 @@
-//! The mechanism as the algorithms want it: parents as positions, axes sorted by direction, massless links known.
+//! The mechanism prepared for the algorithms: axes sorted by direction, massless links and coincident origins marked.
 
 use model::{Joint, Mechanism, PerJoint};
 use nalgebra::{Matrix3, Unit, Vector3};
 
-/// A mechanism prepared for computing. Read-only.
+/// A mechanism prepared for the algorithms. Read-only.
 #[derive(Clone, Debug)]
 pub struct Tree {
     pub(crate) nodes: PerJoint<Node>,
-    /// Mass of the whole robot [kg].
+    /// Mass of the whole robot (kg).
     pub mass: f64,
 }
 
 /// One joint and its link.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
-    /// `None` for the ground.
+    /// The joint that carries the parent link; `None` for the ground.
     pub parent: Option<Joint>,
-    pub turn: Turn,
-    /// `None` where the joint meets its parent in one point.
+    /// Axis of the joint.
+    pub axis: JointAxis,
+    /// Position of the joint in the parent's frame (m); `None` where the two joints coincide.
     pub origin: Option<Vector3<f64>>,
-    /// `None` for massless links.
+    /// Mass and inertia of the link; `None` for a massless link.
     pub body: Option<model::Body>,
 }
 
 /// The axis of a joint. Nearly all are along a coordinate, where a rotation touches two columns only.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Turn {
+pub(crate) enum JointAxis {
     X,
     Y,
     Z,
@@ -33,13 +34,13 @@ pub(crate) enum Turn {
 }
 
 impl Tree {
-    /// Prepares a mechanism.
+    /// The tree of a mechanism.
     pub fn new(mechanism: &Mechanism) -> Self {
         let nodes = PerJoint::from_fn(|joint| {
             let link = &mechanism.links[joint];
             Node {
                 parent: link.parent,
-                turn: Turn::new(link.axis),
+                axis: JointAxis::new(link.axis),
                 origin: (link.origin != Vector3::zeros()).then_some(link.origin),
                 body: (link.body.mass > 0.0).then_some(link.body),
             }
@@ -53,31 +54,38 @@ impl Tree {
     }
 }
 
-impl Turn {
+impl JointAxis {
     fn new(axis: Unit<Vector3<f64>>) -> Self {
         if axis == Vector3::x_axis() {
-            Turn::X
+            JointAxis::X
         } else if axis == Vector3::y_axis() {
-            Turn::Y
+            JointAxis::Y
         } else if axis == Vector3::z_axis() {
-            Turn::Z
+            JointAxis::Z
         } else {
-            Turn::About(axis)
+            JointAxis::About(axis)
         }
     }
 
-    /// The child's rotation and the joint's axis in the world, from the parent's rotation and sine and cosine of the angle.
+    /// The child's rotation and the joint's axis in the world, from the parent's rotation and sine and cosine of the
+    /// angle.
     #[inline(always)]
     pub fn apply(self, parent: &Matrix3<f64>, (sine, cosine): (f64, f64)) -> (Matrix3<f64>, Vector3<f64>) {
         let (x, y, z) = (parent.column(0), parent.column(1), parent.column(2));
         match self {
-            Turn::X => (Matrix3::from_columns(&[x.into(), y * cosine + z * sine, z * cosine - y * sine]), x.into()),
-            Turn::Y => (Matrix3::from_columns(&[x * cosine - z * sine, y.into(), x * sine + z * cosine]), y.into()),
-            Turn::Z => (Matrix3::from_columns(&[x * cosine + y * sine, y * cosine - x * sine, z.into()]), z.into()),
-            Turn::About(axis) => {
+            JointAxis::X => {
+                (Matrix3::from_columns(&[x.into(), y * cosine + z * sine, z * cosine - y * sine]), x.into())
+            }
+            JointAxis::Y => {
+                (Matrix3::from_columns(&[x * cosine - z * sine, y.into(), x * sine + z * cosine]), y.into())
+            }
+            JointAxis::Z => {
+                (Matrix3::from_columns(&[x * cosine + y * sine, y * cosine - x * sine, z.into()]), z.into())
+            }
+            JointAxis::About(axis) => {
                 let across = axis.cross_matrix() * sine + axis.into_inner() * axis.transpose() * (1.0 - cosine);
-                let turn = Matrix3::from_diagonal_element(cosine) + across;
-                (parent * turn, parent * axis.into_inner())
+                let rotation = Matrix3::from_diagonal_element(cosine) + across;
+                (parent * rotation, parent * axis.into_inner())
             }
         }
     }

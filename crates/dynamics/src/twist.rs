@@ -1,20 +1,21 @@
-//! Twists: how a rigid body moves, as a field over space (Featherstone 2008, §2.2).
+//! Twists: the motion of a rigid body as a field over space (Featherstone 2008, §2.2).
 
 use model::Wrench;
 use nalgebra::Vector3;
 
-/// A field of velocities or accelerations `linear + angular × x`, as a rigid body has it.
+/// The field of velocities or accelerations `linear + angular × x` of a rigid body.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Twist {
+    /// Angular part of the field (rad/s) or (rad/s²).
     pub angular: Vector3<f64>,
-    /// At the common origin.
+    /// Value of the field at the common origin (m/s) or (m/s²).
     pub linear: Vector3<f64>,
 }
 
 impl Twist {
-    /// How a wrench changes that is carried along by these velocities.
+    /// Rate of change of a wrench that moves along with these velocities.
     #[inline(always)]
-    pub fn turn(&self, wrench: &Wrench) -> Wrench {
+    pub fn rate_of(&self, wrench: &Wrench) -> Wrench {
         Wrench {
             force: self.angular.cross(&wrench.force),
             moment: self.angular.cross(&wrench.moment) + self.linear.cross(&wrench.force),

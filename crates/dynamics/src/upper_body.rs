@@ -1,4 +1,4 @@
-//! What the pelvis carries, as one body: legs can then move under it without its joints being looked at again.
+//! The upper body as one rigid body: legs can then move under it without recomputing its joints.
 
 use model::{Joint, JointVector, Side};
 use nalgebra::{Isometry3, Vector3};
@@ -6,22 +6,22 @@ use nalgebra::{Isometry3, Vector3};
 use crate::inverse_kinematics::Leg;
 use crate::{Kinematics, Tree};
 
-/// Carries legs and upper body.
+/// The pelvis: carries legs and upper body.
 const PELVIS: Joint = Leg(Side::Right).end();
-/// Links from the right sole over the pelvis to the left sole: legs with the pelvis, and what is beyond.
+/// Number of links from the right sole over the pelvis to the left sole; the upper body comes after them.
 const LEGS: usize = Leg(Side::Left).end().index() + 1;
 
-/// Waist, trunk and arms, held still.
+/// Waist, trunk and arms as one rigid body, at fixed joint angles.
 #[derive(Clone, Copy, Debug)]
 pub struct UpperBody {
-    /// [kg]
+    /// Mass of the upper body (kg).
     pub mass: f64,
-    /// Mass times centre of mass, in the pelvis link's frame [kg·m].
+    /// Mass times centre of mass, in the pelvis link's frame (kg·m).
     pub moment: Vector3<f64>,
 }
 
 impl UpperBody {
-    /// Of these angles; those of the legs are not read.
+    /// The upper body at these angles; those of the legs are not read.
     pub fn new(tree: &Tree, angles: &JointVector) -> Self {
         let mut kinematics = Kinematics::default();
         kinematics.place(PELVIS, &Isometry3::identity());
@@ -32,21 +32,21 @@ impl UpperBody {
 }
 
 impl Kinematics {
-    /// As [`Kinematics::stand`], but for the links of the upper body, which stay where they were.
+    /// As [`Kinematics::compute_fixed_base`], without the links of the upper body, whose poses stay as they were.
     #[inline]
-    pub fn stand_on_legs(&mut self, tree: &Tree, angles: &JointVector) {
+    pub fn compute_legs(&mut self, tree: &Tree, angles: &JointVector) {
         self.chain(tree, angles, 0..LEGS);
     }
 
-    /// Centre of mass of legs that were placed by [`Kinematics::stand_on_legs`] with the upper body on them [m].
+    /// Centre of mass of the robot (m): legs as computed by [`Kinematics::compute_legs`], with an upper body on them.
     #[inline]
-    pub fn com_under(&self, tree: &Tree, upper: &UpperBody) -> Vector3<f64> {
+    pub fn com_with(&self, tree: &Tree, upper: &UpperBody) -> Vector3<f64> {
         let (_, legs) = self.mass_and_moment(tree, Joint::ALL[..LEGS].iter().copied());
         let carried = self.origin[PELVIS] * upper.mass + self.rotation[PELVIS] * upper.moment;
         (legs + carried) / tree.mass
     }
 
-    /// Mass of some links [kg], and times their centre of mass [kg·m].
+    /// Mass of some links (kg), and mass times their centre of mass (kg·m).
     #[inline(always)]
     fn mass_and_moment(&self, tree: &Tree, links: impl Iterator<Item = Joint>) -> (f64, Vector3<f64>) {
         links.fold((0.0, Vector3::zeros()), |(mass, moment), link| match &tree.nodes[link].body {

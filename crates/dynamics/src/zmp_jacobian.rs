@@ -1,22 +1,23 @@
-//! How the zero-moment point changes with each joint's angle, rate and acceleration, in closed form.
+//! Derivatives of the zero-moment point by each joint's angle, rate and acceleration, in closed form.
 //!
-//! A mass point x beyond a joint moves with the joint's angle by `∂x/∂q = S(x) = axis × (x − origin)`. Whether time or
-//! angle is differentiated by first does not matter, so
+//! A mass point x beyond a joint moves with the joint's angle by `∂x/∂q = S(x) = axis × (x − origin)`. Derivatives by
+//! time and by angle commute, so
 //!
 //! ```text
 //! ∂ẍ/∂q̈ = S(x)        ∂ẍ/∂q̇ = 2·d/dt S(x) = 2·(Ṡ(x) + axis × ẋ)
 //!                     ∂ẍ/∂q = d²/dt² S(x) = S̈(x) + 2·axis′ × ẋ + axis × ẍ
 //! ```
 //!
-//! where Ṡ and S̈ come from how the parent carries the joint. Summed over the mass points beyond the joint, each is
+//! where Ṡ and S̈ follow from the motion of the parent. Summed over the mass points beyond the joint, the terms are
 //!
 //! * a rigid field of accelerations: needs their mass and its moments ([`Composite`]),
-//! * their velocities, turned: needs their momentum `Σ mẋ` and `Σ mẋxᵀ` ([`Subtree`]),
-//! * their accelerations, turned; as the angle also moves the points where forces act, this turns the wrench that they need.
+//! * a rotation of their velocities: needs their momentum `Σ mẋ` and `Σ mẋxᵀ` ([`Subtree`]),
+//! * a rotation of their accelerations; since the angle also moves the points at which forces act, this rotates the
+//!   wrench that they need.
 //!
-//! All is told about one common origin, so one pass from the tips in gives the three columns of every joint. In spatial
-//! algebra: Carpentier and Mansard, "Analytical derivatives of rigid body dynamics algorithms", RSS 2018, for the wrench of the
-//! base alone.
+//! Everything is expressed about one common origin, so one pass from the tips inward yields the three columns of every
+//! joint. In spatial algebra: Carpentier and Mansard, "Analytical derivatives of rigid body dynamics algorithms", RSS
+//! 2018, for the wrench of the base alone.
 
 use model::{GRAVITY, Joint, Motion, PerJoint, Wrench};
 use nalgebra::{Matrix3, Vector2, Vector3};
@@ -26,35 +27,36 @@ use crate::newton_euler::LinkMotion;
 use crate::twist::Twist;
 use crate::{NewtonEuler, Tree, zmp};
 
-/// The zero-moment point's derivatives and their intermediates. Times the joints' rates, accelerations and jerks they add up
-/// to the point's velocity.
+/// The derivatives of the zero-moment point, with intermediates. Multiplied by the joints' rates, accelerations and
+/// jerks they add up to the velocity of the point.
 #[derive(Clone, Debug)]
 pub struct ZmpJacobian {
-    /// Filled first: the motion's wrenches.
+    /// Inverse dynamics of the motion. Filled first.
     pub newton_euler: NewtonEuler,
-    /// Filled outward: velocity of each joint's origin [m/s].
+    /// Velocity of each joint's origin (m/s). Filled by the outward pass.
     velocity: PerJoint<Vector3<f64>>,
-    /// Filled outward with each link, inward with all beyond it.
+    /// Inertia and momentum of each link, and after the inward pass of all links beyond it too.
     subtrees: PerJoint<Subtree>,
-    /// By each joint's angle [m/rad].
+    /// Derivative by each joint's angle (m/rad).
     pub by_angle: PerJoint<Vector2<f64>>,
-    /// By each joint's rate [m·s/rad].
+    /// Derivative by each joint's rate (m·s/rad).
     pub by_rate: PerJoint<Vector2<f64>>,
-    /// By each joint's acceleration [m·s²/rad].
+    /// Derivative by each joint's acceleration (m·s²/rad).
     pub by_acceleration: PerJoint<Vector2<f64>>,
 }
 
-/// What links weigh together and how they move, about the common origin.
+/// Inertia and momentum of some links together, about the common origin.
 #[derive(Clone, Copy, Debug)]
 struct Subtree {
+    /// Mass and its moments.
     composite: Composite,
-    /// `Σ mẋ` [kg·m/s].
+    /// `Σ mẋ` (kg·m/s).
     momentum: Vector3<f64>,
-    /// `tr(Σ mẋxᵀ) − Σ mẋxᵀ`: maps a to `Σ m·x × (a × ẋ)` [kg·m²/s].
+    /// `tr(Σ mẋxᵀ) − Σ mẋxᵀ`: maps a to `Σ m·x × (a × ẋ)` (kg·m²/s).
     sweep: Matrix3<f64>,
 }
 
-/// Maps the change of a wrench to that of its zero-moment point: the horizontal moment about the point per vertical force.
+/// Maps the change of a wrench to that of its zero-moment point: horizontal moment about the point per vertical force.
 struct Shift {
     zmp: Vector2<f64>,
     per_force: f64,
@@ -75,21 +77,23 @@ impl Default for ZmpJacobian {
 }
 
 impl ZmpJacobian {
-    /// Of a motion with the right sole held at O. Gives the zero-moment point itself [m].
+    /// Computes the derivatives for a motion with the right sole fixed at O, and returns the zero-moment point itself
+    /// (m).
     ///
-    /// `None` when the ground does not push ([`zmp`]): the derivatives are then those of an earlier motion.
-    pub fn stand(&mut self, tree: &Tree, motion: &Motion) -> Option<Vector2<f64>> {
-        self.newton_euler.stand(tree, motion);
+    /// `None` when the ground does not push ([`zmp()`]): the derivatives are then those of an earlier motion.
+    pub fn compute_fixed_base(&mut self, tree: &Tree, motion: &Motion) -> Option<Vector2<f64>> {
+        self.newton_euler.compute_fixed_base(tree, motion);
         let ground = self.newton_euler.ground;
         let zmp = zmp(&ground)?;
         self.differentiate(tree, &Shift { zmp, per_force: 1.0 / ground.force.z });
         Some(zmp)
     }
 
-    /// As [`ZmpJacobian::stand`], of the ground's moment about O beside the robot's weight, (−My, Mx)/(M·g) [m]: zero where
-    /// the zero-moment point is O, linear in the wrench, and told of any motion. Gives this quotient itself.
+    /// As [`ZmpJacobian::compute_fixed_base`], for the ground's moment about O per weight of the robot, (−My, Mx)/(M·g)
+    /// (m): zero where the zero-moment point is O, linear in the wrench, and defined for any motion. Returns this
+    /// quotient.
     pub fn moment_per_weight(&mut self, tree: &Tree, motion: &Motion) -> Vector2<f64> {
-        self.newton_euler.stand(tree, motion);
+        self.newton_euler.compute_fixed_base(tree, motion);
         let shift = Shift { zmp: Vector2::zeros(), per_force: 1.0 / (tree.mass * GRAVITY) };
         self.differentiate(tree, &shift);
         shift.of(&self.newton_euler.ground)
@@ -101,7 +105,7 @@ impl ZmpJacobian {
         self.inward(tree, shift);
     }
 
-    /// From the ground out: what each link by itself weighs, and how it moves.
+    /// From the ground outward: inertia and momentum of each link by itself.
     #[inline(always)]
     fn outward(&mut self, tree: &Tree) {
         let NewtonEuler { kinematics, links, .. } = &self.newton_euler;
@@ -125,10 +129,10 @@ impl ZmpJacobian {
         }
     }
 
-    /// From the tips in: what everything beyond a joint makes of the joint's angle, rate and acceleration.
+    /// From the tips inward: the derivatives by each joint's angle, rate and acceleration.
     #[inline(always)]
     fn inward(&mut self, tree: &Tree, shift: &Shift) {
-        let NewtonEuler { kinematics, links, needs, .. } = &self.newton_euler;
+        let NewtonEuler { kinematics, links, wrench, .. } = &self.newton_euler;
         for joint in Joint::ALL.into_iter().rev() {
             let subtree = self.subtrees[joint];
             let parent = tree.nodes[joint].parent;
@@ -140,7 +144,7 @@ impl ZmpJacobian {
                 None => LinkMotion::default(),
             };
 
-            // The joint's field S, how fast the parent turns and moves it, and how this changes.
+            // The joint's field S, and its first and second derivative by the motion of the parent.
             let (origin, axis) = (kinematics.origin[joint], kinematics.axis[joint]);
             let (velocity, acceleration) = (self.velocity[joint], links[joint].acceleration);
             let axis_rate = carried.angular_rate.cross(&axis);
@@ -155,7 +159,7 @@ impl ZmpJacobian {
             let Subtree { composite, .. } = &subtree;
             let by_rate = composite.times(&field_rate) + subtree.swept(&axis);
             let by_angle =
-                composite.times(&field_acceleration) + subtree.swept(&axis_rate) * 2.0 + field.turn(&needs[joint]);
+                composite.times(&field_acceleration) + subtree.swept(&axis_rate) * 2.0 + field.rate_of(&wrench[joint]);
             self.by_acceleration[joint] = shift.of(&composite.times(&field));
             self.by_rate[joint] = shift.of(&by_rate) * 2.0;
             self.by_angle[joint] = shift.of(&by_angle);

@@ -1,10 +1,11 @@
-//! Goal: the angles of `LegSolver` bring pelvis and foot where they are wanted, for every build of leg.
+//! Goal: the angles of `LegSolver` bring pelvis and foot into the desired poses, for every structure of leg.
 //!
 //! Method: random angles give poses by forward kinematics; the angles found must give the same poses, and must be
-//! Newton's. Poses out of reach are told by their distance.
+//! Newton's. For poses out of reach the missing distance is reported.
 
 use std::path::Path;
 
+use config::Config;
 use dynamics::{Kinematics, Leg, LegSolver, Tree, solve_leg};
 use model::{Joint, JointVector, Mechanism, Side};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
@@ -19,7 +20,7 @@ fn mechanism(file: &str) -> Mechanism {
     Mechanism::load(&file).expect("the committed mechanism loads")
 }
 
-/// Any posture within the ranges; the two unpowered joints turn the right foot as well.
+/// A random posture within the ranges; the two unpowered joints rotate the right foot as well.
 fn posture(mechanism: &Mechanism, random: &mut StdRng) -> JointVector {
     JointVector::from_fn(|joint| match &mechanism.links[joint].limits {
         Some(limits) => random.random_range(limits.angle_min..limits.angle_max),
@@ -35,14 +36,14 @@ const fn knee(side: Side) -> Joint {
 }
 
 fn feet_and_pelvis(tree: &Tree, angles: &JointVector) -> [Isometry3<f64>; 3] {
-    let kinematics = Kinematics::standing(tree, angles);
+    let kinematics = Kinematics::fixed_base(tree, angles);
     [Mechanism::foot(Side::Right), Mechanism::foot(Side::Left), PELVIS].map(|link| kinematics.link_to_world(link))
 }
 
-/// Largest difference in position [m] or orientation [rad].
+/// Largest difference in position (m) or orientation (rad).
 fn miss(one: &Isometry3<f64>, other: &Isometry3<f64>) -> f64 {
-    let turn = 2.0 * (one.rotation.inverse() * other.rotation).imag().amax();
-    (one.translation.vector - other.translation.vector).amax().max(turn)
+    let rotation = 2.0 * (one.rotation.inverse() * other.rotation).imag().amax();
+    (one.translation.vector - other.translation.vector).amax().max(rotation)
 }
 
 /// Solves both legs of random postures and compares the poses that come out, and which way the knees bend.
@@ -50,34 +51,34 @@ fn random_postures_come_out(mechanism: &Mechanism, guess: impl Fn(&JointVector) 
     let (tree, solver) = (Tree::new(mechanism), LegSolver::new(mechanism));
     let mut random = StdRng::seed_from_u64(4);
     for round in 0..POSTURES {
-        let wanted = posture(mechanism, &mut random);
-        let poses = feet_and_pelvis(&tree, &wanted);
-        let mut angles = guess(&wanted);
+        let expected = posture(mechanism, &mut random);
+        let poses = feet_and_pelvis(&tree, &expected);
+        let mut angles = guess(&expected);
         for side in Side::BOTH {
             let reached = solver.solve(&tree, Leg(side), &poses[2], &poses[side.index()], &mut angles);
-            assert_eq!(reached, Ok(()), "posture {round}, {side:?}: {wanted:?}");
+            assert_eq!(reached, Ok(()), "posture {round}, {side:?}: {expected:?}");
         }
         for (pose, found) in poses.iter().zip(feet_and_pelvis(&tree, &angles)) {
             let miss = miss(pose, &found);
-            assert!(miss < 1e-12, "posture {round}: {miss:e} off: {wanted:?}");
+            assert!(miss < 1e-12, "posture {round}: {miss:e} off: {expected:?}");
         }
     }
 }
 
-/// What the guess must not tell the closed form.
-fn without_legs(wanted: &JointVector) -> JointVector {
-    JointVector::from_fn(|joint| if joint.is_in_leg() { f64::NAN } else { wanted[joint] })
+/// The posture without the angles of the legs, which the closed form must not read.
+fn without_legs(expected: &JointVector) -> JointVector {
+    JointVector::from_fn(|joint| if joint.is_in_leg() { f64::NAN } else { expected[joint] })
 }
 
 #[test]
-fn closed_form_reaches_ten_thousand_random_postures() {
+fn closed_form_leg_angles_reach_ten_thousand_random_poses() {
     let mechanism = mechanism("mechanism.toml");
     assert!(LegSolver::new(&mechanism).is_closed_form());
     random_postures_come_out(&mechanism, without_legs);
 }
 
 #[test]
-fn senses_of_axes_and_lengths_are_read_from_the_mechanism() {
+fn closed_form_reads_senses_of_axes_and_lengths_from_the_mechanism() {
     let mut mechanism = mechanism("mechanism.toml");
     let turned_round = [Joint::RightAnkleRoll, Joint::RightKnee, Joint::LeftHipYaw, Joint::LeftAnklePitch];
     for joint in turned_round {
@@ -95,22 +96,22 @@ fn senses_of_axes_and_lengths_are_read_from_the_mechanism() {
 }
 
 #[test]
-fn other_builds_are_solved_by_iteration() {
+fn legs_of_another_structure_are_solved_by_iteration() {
     let other = mechanism("mechanism_other_reading.toml");
     assert!(!LegSolver::new(&other).is_closed_form());
     let (tree, solver) = (Tree::new(&other), LegSolver::new(&other));
     let mut random = StdRng::seed_from_u64(5);
     for _ in 0..1000 {
         // Knees well bent, or Newton may end in the mirrored leg.
-        let mut wanted = posture(&other, &mut random);
+        let mut expected = posture(&other, &mut random);
         let bend = random.random_range(0.3..1.2);
-        (wanted[Joint::RightKnee], wanted[Joint::LeftKnee]) = (-bend, bend);
-        let poses = feet_and_pelvis(&tree, &wanted);
-        let mut angles = wanted.zip_with(&posture(&other, &mut random), |wanted, other| wanted + 0.02 * other);
+        (expected[Joint::RightKnee], expected[Joint::LeftKnee]) = (-bend, bend);
+        let poses = feet_and_pelvis(&tree, &expected);
+        let mut angles = expected.zip_with(&posture(&other, &mut random), |expected, other| expected + 0.02 * other);
         for side in Side::BOTH {
             solver.solve(&tree, Leg(side), &poses[2], &poses[side.index()], &mut angles).expect("within reach");
             for joint in Leg(side).joints() {
-                assert!((angles[joint] - wanted[joint]).abs() < 1e-9, "{joint:?} of {wanted:?}");
+                assert!((angles[joint] - expected[joint]).abs() < 1e-9, "{joint:?} of {expected:?}");
             }
         }
     }
@@ -127,19 +128,19 @@ fn other_builds_are_solved_by_iteration() {
 }
 
 #[test]
-fn closed_form_and_newton_agree() {
+fn closed_form_and_newtons_leg_angles_agree() {
     let mechanism = mechanism("mechanism.toml");
     let (tree, solver) = (Tree::new(&mechanism), LegSolver::new(&mechanism));
     let mut random = StdRng::seed_from_u64(6);
     for _ in 0..1000 {
-        let mut wanted = posture(&mechanism, &mut random);
+        let mut expected = posture(&mechanism, &mut random);
         let bend = random.random_range(0.1..1.2);
-        (wanted[Joint::RightKnee], wanted[Joint::LeftKnee]) = (-bend, bend);
-        (wanted[Joint::FootRoll], wanted[Joint::FootPitch]) = (0.0, 0.0);
-        let poses = feet_and_pelvis(&tree, &wanted);
+        (expected[Joint::RightKnee], expected[Joint::LeftKnee]) = (-bend, bend);
+        (expected[Joint::FootRoll], expected[Joint::FootPitch]) = (0.0, 0.0);
+        let poses = feet_and_pelvis(&tree, &expected);
         let nearby = JointVector::from_fn(|joint| match mechanism.links[joint].limits {
-            Some(_) => wanted[joint] + random.random_range(-0.01..0.01),
-            None => wanted[joint],
+            Some(_) => expected[joint] + random.random_range(-0.01..0.01),
+            None => expected[joint],
         });
         let (mut newton, mut closed_form) = (nearby, nearby);
         solve_leg(&tree, Leg(Side::Right), &poses[2], &mut newton).expect("within reach");
@@ -149,19 +150,19 @@ fn closed_form_and_newton_agree() {
         }
         for joint in Joint::ALL {
             let (one, other) = (closed_form[joint], newton[joint]);
-            assert!((one - other).abs() < 1e-9, "{joint:?}: {one} against Newton's {other} in {wanted:?}");
+            assert!((one - other).abs() < 1e-9, "{joint:?}: {one} against Newton's {other} in {expected:?}");
         }
     }
 }
 
-/// Pelvis level above the right foot, at this height of the hips over the ankles [m].
+/// Pelvis level above the right foot, at this height of the hips over the ankles (m).
 fn squat(mechanism: &Mechanism, height: f64) -> [Isometry3<f64>; 3] {
     let ankle = mechanism.sole.ankle_height;
     [Isometry3::identity(), Isometry3::translation(0.0, 0.19, ankle), Isometry3::translation(0.0, 0.0, ankle + height)]
 }
 
 #[test]
-fn knees_bend_backward_and_steadily_from_stretched_to_folded() {
+fn knees_bend_backward_and_continuously_from_stretched_to_folded() {
     let mechanism = mechanism("mechanism.toml");
     let (tree, solver) = (Tree::new(&mechanism), LegSolver::new(&mechanism));
     let mut before = [0.0; 2];
@@ -181,14 +182,14 @@ fn knees_bend_backward_and_steadily_from_stretched_to_folded() {
 }
 
 #[test]
-fn a_leg_too_short_points_at_its_hip_and_tells_what_is_missing() {
+fn a_leg_that_is_too_short_points_at_its_hip_and_the_missing_distance_is_reported() {
     let mechanism = mechanism("mechanism.toml");
     let (tree, solver) = (Tree::new(&mechanism), LegSolver::new(&mechanism));
     // The shank is 12 mm longer than the thigh, and together they are 856 mm long.
     for (height, missing) in [(0.9, 0.044), (5.0, 4.144), (0.856 + 1e-9, 1e-9), (0.01, 0.002), (0.0, 0.012)] {
         for side in Side::BOTH {
             let poses = squat(&mechanism, height);
-            // The leg not asked for stands at whatever height its foot likes.
+            // The other leg stands at an arbitrary height.
             let mut angles = JointVector::ZERO;
             let reached = solver.solve(&tree, Leg(side), &poses[2], &poses[side.index()], &mut angles);
             let residual = reached.expect_err("out of reach").residual;
@@ -198,16 +199,16 @@ fn a_leg_too_short_points_at_its_hip_and_tells_what_is_missing() {
             let [right, left, pelvis] = feet_and_pelvis(&tree, &angles);
             let foot = if side == Side::Right { right } else { left };
             let span = pelvis.inverse() * foot;
-            let wanted = poses[2].inverse() * poses[side.index()];
-            let off = (span.translation.vector - wanted.translation.vector).norm();
+            let expected = poses[2].inverse() * poses[side.index()];
+            let off = (span.translation.vector - expected.translation.vector).norm();
             assert!((off - missing).abs() < 1e-12, "{side:?} at {height} m: {off} m off");
-            assert!(span.rotation.angle_to(&wanted.rotation) < 1e-7);
+            assert!(span.rotation.angle_to(&expected.rotation) < 1e-7);
         }
     }
 }
 
 #[test]
-fn no_pose_makes_an_angle_that_is_no_number() {
+fn no_pose_leads_to_a_leg_angle_that_is_nan() {
     let mechanism = mechanism("mechanism.toml");
     let (tree, solver) = (Tree::new(&mechanism), LegSolver::new(&mechanism));
     // Hip level with the ankle, straight ahead and behind; pelvis turned by right angles every way.

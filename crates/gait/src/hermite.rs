@@ -1,8 +1,9 @@
-//! Quintic Hermite interpolation: what meets two neighbours in value, rate and acceleration, and so joins with C².
+//! Quintic Hermite interpolation: meets both neighbours in value, rate and acceleration, so that intervals join with
+//! C².
 
 use model::{JointVector, Motion};
 
-/// The motion at `x` from 0 to 1 between two motions that are `h` seconds apart: C² where intervals join.
+/// The motion at `x`, from 0 to 1, between two motions that are `h` seconds apart: C² where intervals join.
 pub fn interpolate(start: &Motion, end: &Motion, x: f64, h: f64) -> Motion {
     Motion {
         angles: interpolate_angles(start, end, x, h),
@@ -16,8 +17,8 @@ pub(crate) fn interpolate_angles(start: &Motion, end: &Motion, x: f64, h: f64) -
     start.angles + combined(start, end, value_weights(x), h, 1.0)
 }
 
-/// Weights of: rate and acceleration at the start, the values' difference, rate and acceleration at the end, all counted
-/// per interval. The start's own value has weight 1 in the value and 0 in its derivatives.
+/// Weights of: rate and acceleration at the start, the difference of the values, rate and acceleration at the end, all
+/// per interval. The value at the start has weight 1 in the value and 0 in its derivatives.
 type Weights = [f64; 5];
 
 fn value_weights(x: f64) -> Weights {
@@ -56,7 +57,7 @@ fn acceleration_weights(x: f64) -> Weights {
     ]
 }
 
-/// Joint by joint, what weights make of both ends of an interval of `h` seconds, times `scale`.
+/// Joint by joint, the weighted sum of both ends of an interval of `h` seconds, times `scale`.
 #[inline]
 fn combined(start: &Motion, end: &Motion, weights: Weights, h: f64, scale: f64) -> JointVector {
     let [rate, acceleration, step, end_rate, end_acceleration] = weights;
@@ -76,7 +77,7 @@ mod tests {
 
     /// Any quintic is its own interpolant: compare with one in closed form.
     #[test]
-    fn a_quintic_is_interpolated_exactly() {
+    fn hermite_interpolation_reproduces_a_quintic_exactly() {
         let quintic = |t: f64| -> [f64; 3] {
             [
                 1.0 - 2.0 * t + 3.0 * t.powi(2) - t.powi(3) + 0.5 * t.powi(4) - 0.7 * t.powi(5),

@@ -1,7 +1,9 @@
-//! Ramps: how an offset or a speed goes from what it is to what is asked (DESIGN §4.4).
+//! Ramps: how an offset or a speed goes from its present to its commanded value (DESIGN §4.4).
 //!
-//! The paper adds equal increments: [`RampKind::Linear`], which jumps in rate at both ends. The default is a quintic that
-//! starts from the value, rate and acceleration there are and comes to rest at its end: smooth whatever is commanded.
+//! The paper adds equal increments: [`RampKind::Linear`], which jumps in rate at both ends. The default is a quintic
+//! that starts from the present value, rate and acceleration and ends at rest: smooth for every sequence of commands.
+
+use signal::quintic_to_rest;
 
 /// The shape of a ramp.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -13,46 +15,46 @@ pub enum RampKind {
     Quintic,
 }
 
-/// A value with its first and second derivative, by whatever the ramp runs over.
+/// A value with its first and second derivative by the variable of the ramp.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RampState {
-    /// The value itself.
+    /// The value of the ramp: an offset (rad) or a speed factor (-).
     pub value: f64,
-    /// Its first derivative.
+    /// First derivative of the value by the variable of the ramp, which has no unit itself (-), or by time (1/s).
     pub rate: f64,
-    /// Its second derivative.
+    /// Second derivative of the value by the variable of the ramp (-), or by time (1/s²).
     pub acceleration: f64,
 }
 
 impl RampState {
-    /// At rest at a value.
+    /// A value at rest.
     pub const fn at_rest(value: f64) -> Self {
         Self { value, rate: 0.0, acceleration: 0.0 }
     }
 
-    /// The same with derivatives by another variable of which `dx` is the derivative: by time, when `dx` is how much of
-    /// the ramp passes in a second.
+    /// The same with derivatives by another variable, where `dx` is the derivative of the ramp's variable by that one:
+    /// by time, if `dx` is the share of the ramp that passes in a second (1/s).
     pub fn by(self, dx: f64) -> Self {
         Self { value: self.value, rate: self.rate * dx, acceleration: self.acceleration * dx * dx }
     }
 
-    /// The mirror image of an offset that changes its sign at the swap.
+    /// The mirror image of an offset that changes its sign at the support change.
     pub fn negated(self) -> Self {
         Self { value: -self.value, rate: -self.rate, acceleration: -self.acceleration }
     }
 }
 
-/// A polynomial in `x` from 0 to 1.
+/// A ramp: a polynomial in `x` from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ramp {
-    /// Of 1, x, x² … x⁵.
+    /// Coefficients of 1, x, x² … x⁵.
     coefficients: [f64; 6],
-    /// At x = 1, without the rounding of the polynomial: what is taken out is out exactly.
+    /// State at x = 1, free of the polynomial's rounding, so that an offset that is removed is removed exactly.
     end: RampState,
 }
 
 impl Ramp {
-    /// From what there is to `to`. A linear ramp takes over the value only.
+    /// A ramp of a kind from a state to the value `to`. A linear one takes over the value only.
     pub fn new(kind: RampKind, from: RampState, to: f64) -> Self {
         match kind {
             RampKind::Linear => Self::linear(from.value, to),
@@ -60,34 +62,25 @@ impl Ramp {
         }
     }
 
-    /// Constant.
+    /// A ramp that stays at a value.
     pub const fn hold(value: f64) -> Self {
         Self { coefficients: [value, 0.0, 0.0, 0.0, 0.0, 0.0], end: RampState::at_rest(value) }
     }
 
-    /// In equal increments from `from` to `to`.
+    /// A ramp in equal increments from `from` to `to`.
     pub fn linear(from: f64, to: f64) -> Self {
         let rate = to - from;
         let coefficients = [from, rate, 0.0, 0.0, 0.0, 0.0];
         Self { coefficients, end: RampState { value: to, rate, acceleration: 0.0 } }
     }
 
-    /// From a value, rate and acceleration to rest at `to`.
+    /// A ramp from a value, rate and acceleration to rest at `to`.
     pub fn quintic(from: RampState, to: f64) -> Self {
-        let RampState { value, rate, acceleration } = from;
-        let step = to - value;
-        let coefficients = [
-            value,
-            rate,
-            0.5 * acceleration,
-            10.0 * step - 6.0 * rate - 1.5 * acceleration,
-            -15.0 * step + 8.0 * rate + 1.5 * acceleration,
-            6.0 * step - 3.0 * rate - 0.5 * acceleration,
-        ];
+        let coefficients = quintic_to_rest(from.value, from.rate, from.acceleration, to);
         Self { coefficients, end: RampState::at_rest(to) }
     }
 
-    /// At `x`; beyond 1 it is as at 1.
+    /// The state at `x`; beyond 1 the state at 1.
     pub fn at(&self, x: f64) -> RampState {
         if x >= 1.0 {
             return self.end;
@@ -100,7 +93,7 @@ impl Ramp {
         }
     }
 
-    /// Where it ends: at x = 1.
+    /// The state at x = 1.
     pub fn end(&self) -> RampState {
         self.end
     }
@@ -119,7 +112,7 @@ mod tests {
     const FROM: RampState = RampState { value: 0.3, rate: -2.0, acceleration: 5.0 };
 
     #[test]
-    fn a_quintic_starts_as_told_and_comes_to_rest() {
+    fn a_quintic_ramp_starts_from_the_given_state_and_ends_at_rest() {
         let ramp = Ramp::quintic(FROM, 1.1);
         assert_eq!(ramp.at(0.0), FROM);
         assert_eq!(ramp.at(1.0), RampState::at_rest(1.1));
@@ -128,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn derivatives_and_integral_agree_with_differences() {
+    fn derivatives_and_integral_of_ramps_agree_with_differences() {
         let h = 1e-5;
         for ramp in [Ramp::quintic(FROM, 1.1), Ramp::linear(0.2, -0.4), Ramp::hold(3.0)] {
             for step in 1..10 {

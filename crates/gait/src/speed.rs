@@ -7,7 +7,8 @@ use model::Motion;
 
 use crate::{Ramp, RampKind, RampState};
 
-/// A motion at nominal speed, played at speed `c` that changes at `ċ` [1/s]: `q̇ = c·q′`, `q̈ = c²·q″ + ċ·q′`.
+/// A motion at nominal speed, played at the speed factor `c` that changes at `ċ` (1/s): `q̇ = c·q′`,
+/// `q̈ = c²·q″ + ċ·q′`.
 pub fn at_speed(nominal: &Motion, speed: f64, speed_rate: f64) -> Motion {
     Motion {
         angles: nominal.angles,
@@ -16,37 +17,39 @@ pub fn at_speed(nominal: &Motion, speed: f64, speed_rate: f64) -> Motion {
     }
 }
 
-/// The speed factor now and on its way to the one in force.
+/// The speed factor, on its ramp to the commanded one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Speed {
+    /// Shape of the ramps.
     kind: RampKind,
-    /// How long a change takes [s].
+    /// Duration of a change (s).
     duration: f64,
-    /// The speed in force, where the change ends.
+    /// The commanded speed factor, at which the change ends.
     target: f64,
-    change: Option<Change>,
+    /// The change in progress.
+    change: Option<SpeedChange>,
 }
 
-/// A change of speed that is not over yet.
+/// A change of speed in progress.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Change {
+struct SpeedChange {
     ramp: Ramp,
-    /// Since it began, less than its duration [s].
+    /// Time since the change began, less than its duration (s).
     elapsed: f64,
 }
 
 impl Speed {
-    /// A constant `speed`, with changes that take `duration` [s].
+    /// A constant `speed`, whose changes take `duration` (s).
     pub const fn new(speed: f64, kind: RampKind, duration: f64) -> Self {
         Self { kind, duration, target: speed, change: None }
     }
 
-    /// The speed that was asked for.
+    /// The commanded speed factor.
     pub fn target(&self) -> f64 {
         self.target
     }
 
-    /// `c` now, with `ċ` [1/s] and `c̈` [1/s²].
+    /// The present speed factor `c`, with `ċ` (1/s) and `c̈` (1/s²).
     pub fn state(&self) -> RampState {
         match self.change {
             Some(change) => change.ramp.at(change.elapsed / self.duration).by(self.duration.recip()),
@@ -54,24 +57,24 @@ impl Speed {
         }
     }
 
-    /// Heads for `target` from the speed, rate and acceleration there are. Asking again for the same changes nothing, so
-    /// that a stream of equal requests does not put the end off.
+    /// Begins a change to `target` from the present speed, rate and acceleration. Commanding the same again changes
+    /// nothing, so that a stream of equal commands does not postpone the end.
     pub fn request(&mut self, target: f64) {
         if target == self.target {
             return;
         }
         let ramp = Ramp::new(self.kind, self.state().by(self.duration), target);
         self.target = target;
-        self.change = (self.duration > 0.0).then_some(Change { ramp, elapsed: 0.0 });
+        self.change = (self.duration > 0.0).then_some(SpeedChange { ramp, elapsed: 0.0 });
     }
 
-    /// As it was some time ago [s], as far as the change that is under way reaches back.
+    /// The speed as it was some time ago (s), back to the beginning of the change in progress.
     pub fn rewound(&self, by: f64) -> Self {
-        let change = self.change.map(|change| Change { elapsed: (change.elapsed - by).max(0.0), ..change });
+        let change = self.change.map(|change| SpeedChange { elapsed: (change.elapsed - by).max(0.0), ..change });
         Self { change, ..*self }
     }
 
-    /// Moves on by `dt` [s] and returns the nominal time that passes meanwhile, `∫c dt` [s], exactly.
+    /// Advances by `dt` (s) and returns the nominal time that passes, `∫c dt` (s), exactly.
     pub fn advance(&mut self, dt: f64) -> f64 {
         let Some(change) = &mut self.change else {
             return self.target * dt;
@@ -92,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nominal_time_is_the_integral_of_the_speed() {
+    fn nominal_time_is_the_integral_of_the_speed_factor() {
         for kind in [RampKind::Linear, RampKind::Quintic] {
             let mut speed = Speed::new(1.0, kind, 0.6);
             speed.request(1.4);
@@ -104,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn a_change_of_mind_keeps_speed_and_its_derivatives() {
+    fn a_new_target_during_a_change_of_speed_keeps_speed_and_its_derivatives() {
         let mut speed = Speed::new(1.0, RampKind::Quintic, 0.6);
         speed.request(1.4);
         speed.advance(0.25);
@@ -117,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn it_was_what_it_was() {
+    fn a_rewound_speed_is_the_earlier_speed() {
         let mut speed = Speed::new(1.0, RampKind::Quintic, 0.6);
         speed.request(1.4);
         speed.advance(0.25);
@@ -128,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn repeating_a_request_does_not_put_its_end_off() {
+    fn repeating_a_commanded_speed_does_not_postpone_the_end_of_its_ramp() {
         for kind in [RampKind::Linear, RampKind::Quintic] {
             let mut speed = Speed::new(1.0, kind, 0.6);
             for _ in 0..7 {
@@ -139,9 +142,9 @@ mod tests {
         }
     }
 
-    /// The worst that requests can do is to change their mind at the worst moments: even then `c` stays positive.
+    /// Even if commands alternate between the limits at the worst moments, `c` stays positive.
     #[test]
-    fn hectic_requests_never_walk_backwards() {
+    fn alternating_commands_of_speed_never_reverse_the_walk() {
         let mut least = f64::INFINITY;
         for period in 10..80 {
             let mut speed = Speed::new(1.0, RampKind::Quintic, 0.6);

@@ -1,10 +1,11 @@
 //! Step extension (DESIGN §4.3): the swing foot lands further ahead by `β` at the hips.
 //!
 //! Half of `β` goes into either hip pitch, joints 6 and 11, and the ankle pitches take it back so that the soles stay
-//! level. For a forward-reaching offset `e` of either hip the signs follow from the axes: the support leg leans ahead as
-//! one goes up from the ground (ankle `+e`, hip `−e`), the swing leg reaches ahead as one goes down from the pelvis (hip
-//! `−e`, ankle `+e`). Pitch changes its sign at the swap: the foot that reached ahead by `e` is then the one left
-//! behind, `−e`. So in steady extended walking `e` runs from `−β/2` to `+β/2` in each half-step. Negative `β` shortens.
+//! level. For a forward-reaching offset `e` of either hip the signs follow from the axes: the support leg leans ahead
+//! as one goes up from the ground (ankle `+e`, hip `−e`), the swing leg reaches ahead as one goes down from the pelvis
+//! (hip `−e`, ankle `+e`). Pitch changes its sign at the support change: the foot that reached ahead by `e` is then the
+//! one left behind, `−e`. So in steady extended walking `e` runs from `−β/2` to `+β/2` in each half-step. Negative `β`
+//! shortens.
 //!
 //! Ankle pitch, knee and hip pitch follow each other about one direction, so the soles stay level exactly, whatever the
 //! roll and yaw. Under the other reading of the paper, where joints 3 and 14 pitch, roll comes between: there the sole
@@ -14,19 +15,21 @@ use model::{Joint, JointVector, Mechanism, Motion, Side};
 
 use crate::{Ramp, RampKind, RampState, WalkError};
 
-/// The extension in force and its offset in the present half-step.
+/// The commanded step extension and its offset in the present half-step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepExtension {
     /// One on each ankle and hip pitch, with the sign that reaches forward.
     forward: JointVector,
+    /// Shape of the ramps.
     kind: RampKind,
+    /// `β` as commanded (rad).
     angle: f64,
-    /// `e`: angle of either hip over progress [rad].
+    /// `e`: offset of either hip over progress (rad).
     ramp: Ramp,
 }
 
 impl StepExtension {
-    /// Steps as long as the nominal's.
+    /// No extension: steps as long as the nominal's.
     ///
     /// # Errors
     /// [`WalkError::HipPitchNotLateral`] and [`WalkError::NoAnklePitch`] when a leg has no such pair of joints about y.
@@ -51,27 +54,27 @@ impl StepExtension {
         Ok(Self { forward, kind, angle: 0.0, ramp: Ramp::hold(0.0) })
     }
 
-    /// `β` in force [rad].
+    /// `β` as commanded (rad).
     pub fn angle(&self) -> f64 {
         self.angle
     }
 
-    /// Extends by `angle` from the next half-step on.
+    /// Commands an extension by `angle` (rad), from the next half-step on.
     pub fn request(&mut self, angle: f64) {
         self.angle = angle;
     }
 
-    /// Begins a half-step: what reached ahead is behind now.
+    /// Begins a half-step: the leg that reached ahead is now the rear one.
     pub fn begin_half_step(&mut self) {
         self.ramp = Ramp::new(self.kind, self.ramp.end().negated(), 0.5 * self.angle);
     }
 
-    /// `e`, the angle of either hip at `progress` [rad], derivatives by progress.
+    /// `e`, the offset of either hip at `progress` (rad), with derivatives by progress.
     pub fn per_hip(&self, progress: f64) -> RampState {
         self.ramp.at(progress)
     }
 
-    /// The offsets at `progress` in canonical coordinates, at nominal speed in a half-step of `duration` [s].
+    /// The offsets of all joints at `progress`, canonical, at nominal speed in a half-step of `duration` (s).
     pub fn at(&self, progress: f64, duration: f64) -> Motion {
         let per_hip = self.per_hip(progress).by(duration.recip());
         Motion {

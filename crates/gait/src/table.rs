@@ -1,15 +1,15 @@
 //! The nominal half-step as a table: one row per interval boundary.
 
-use model::{Joint, JointVector, Mirror, Motion, Wrench};
+use model::{Joint, JointVector, Mirror, Mirrored, Motion, Wrench};
 
 use crate::hermite::{interpolate, interpolate_angles};
 
-/// One single-support half-step on the right foot, at `n_int + 1` equally spaced instants from 0 to T.
+/// The nominal half-step: in single support on the right foot, at `n_int + 1` equally spaced instants from 0 to T.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NominalTable {
-    /// `T` [s].
+    /// Duration `T` of the half-step (s).
     pub duration: f64,
-    /// From t = 0 to t = T inclusive.
+    /// The rows from t = 0 to t = T inclusive.
     pub rows: Vec<NominalRow>,
     /// The command that made the table, for the file's header.
     pub made_by: String,
@@ -17,62 +17,65 @@ pub struct NominalTable {
     pub mechanism: u64,
 }
 
-/// What the robot does at one instant, and what that takes.
+/// Motion, joint torques and ground wrench at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NominalRow {
-    /// Angles, rates and accelerations.
+    /// Joint angles, rates and accelerations at nominal speed.
     pub motion: Motion,
-    /// Torques that hold the posture against gravity [N·m].
+    /// Torques that hold the posture against gravity (N·m).
     pub torque_gravity: JointVector,
-    /// Torques of the motion itself; grow with the square of the speed (Hollerbach 1984) [N·m].
+    /// Torques of the motion itself (N·m); they grow with the square of the speed (Hollerbach 1984).
     pub torque_dynamic: JointVector,
-    /// Wrench of the ground about O in support axes that carries the weight.
+    /// Gravity part of the ground's wrench about O, in support axes.
     pub ground_gravity: Wrench,
-    /// Wrench of the ground about O in support axes that the motion itself needs.
+    /// Dynamic part of the ground's wrench about O, in support axes; it grows with the square of the speed.
     pub ground_dynamic: Wrench,
 }
 
-/// Why a table is no nominal half-step.
+/// Why a table is not a nominal half-step.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TableError {
-    /// An interval needs a row at each end.
+    /// The table has less than two rows: an interval needs one at each end.
     #[error("the table has {0} rows: a half-step needs at least 2, one at each end")]
     TooFewRows(usize),
-    /// `T` is no length of time.
+    /// The duration `T` is not finite and positive.
     #[error("the half-step's duration is {0} s: it must be finite and positive")]
     DurationNotPositive(f64),
-    /// NaN or infinity.
+    /// A row holds NaN or infinity.
     #[error("row {0} holds a value that is not a finite number")]
     NotFinite(usize),
-    /// The swap would jump in angle or rate.
+    /// A joint would jump in angle or rate at the support change.
     #[error(
         "the end does not mirror the start: {quantity} of joint {} ({}) ends as {found}, mirrored, and starts as \
          {expected}; the two must agree to {tolerance:e}",
         joint.number(), joint.name(), tolerance = NominalTable::SWAP_TOLERANCE
     )]
     EndDoesNotMirrorStart {
-        /// The joint of the start.
+        /// The joint that would jump.
         joint: Joint,
-        /// `angle` or `rate`.
+        /// The quantity that would jump: `angle` or `rate`.
         quantity: &'static str,
-        /// The mirrored end's value [rad or rad/s].
+        /// The mirrored end's value (rad or rad/s).
         found: f64,
-        /// The start's value [rad or rad/s].
+        /// The start's value (rad or rad/s).
         expected: f64,
     },
 }
 
 impl NominalTable {
-    /// How far the mirrored end may be from the start [rad and rad/s] (DESIGN §3).
+    /// Largest difference between the mirrored end and the start (DESIGN §3) (rad, rad/s).
     pub const SWAP_TOLERANCE: f64 = 1e-6;
 
-    /// `n_int`: how many intervals the half-step is divided into.
+    /// `n_int`: number of intervals of the half-step.
     pub fn intervals(&self) -> usize {
         self.rows.len() - 1
     }
 
-    /// Whether it is a half-step that can be repeated from foot to foot: finite, at least one interval, the end mirrors
-    /// the start in angle and rate. (Accelerations may jump at the swap, as the ZMP jumps from foot to foot.)
+    /// Checks that the half-step can be repeated from foot to foot: it is finite, has at least one interval, and its
+    /// end mirrors its start in angle and rate. (Accelerations may jump at the support change, as the ZMP does.)
+    ///
+    /// # Errors
+    /// The first reason why it cannot.
     pub fn check(&self, mirror: &Mirror) -> Result<(), TableError> {
         if !(self.duration.is_finite() && self.duration > 0.0) {
             return Err(TableError::DurationNotPositive(self.duration));
@@ -98,7 +101,7 @@ impl NominalTable {
     /// The motion at `progress` from 0 to 1, at nominal speed: angles are twice continuously differentiable across the
     /// rows, and rates and accelerations are their exact derivatives. Progress outside 0 to 1 counts as the nearer end.
     ///
-    /// Needs a table that passes [`check`](Self::check), as all lookups do.
+    /// Like all lookups it needs a table that passes [`check`](Self::check).
     pub fn at(&self, progress: f64) -> Motion {
         let (start, end, x) = self.around(progress);
         interpolate(&start.motion, &end.motion, x, self.duration / self.intervals() as f64)
@@ -110,23 +113,7 @@ impl NominalTable {
         interpolate_angles(&start.motion, &end.motion, x, self.duration / self.intervals() as f64)
     }
 
-    /// The wrench of the ground about O, in support axes, at `progress` and a constant `speed` `c`: the gravity part
-    /// plus `c²` times the dynamic part (DESIGN §4.2, eq. 4), linear between rows.
-    pub fn ground(&self, progress: f64, speed: f64) -> Wrench {
-        let (start, end, x) = self.around(progress);
-        let at = |row: &NominalRow| row.ground_gravity + row.ground_dynamic * (speed * speed);
-        at(start) * (1.0 - x) + at(end) * x
-    }
-
-    /// The torques of all joints [N·m] at `progress` and a constant `speed` `c`: the gravity part plus `c²` times the
-    /// dynamic part (DESIGN §4.2, eq. 4), linear between rows.
-    pub fn torques(&self, progress: f64, speed: f64) -> JointVector {
-        let (start, end, x) = self.around(progress);
-        let at = |row: &NominalRow| row.torque_gravity + row.torque_dynamic * (speed * speed);
-        at(start) * (1.0 - x) + at(end) * x
-    }
-
-    /// The rows before and after `progress`, and how far it is from the one to the other, 0 to 1.
+    /// The rows before and after `progress`, and its position between them, 0 to 1.
     fn around(&self, progress: f64) -> (&NominalRow, &NominalRow, f64) {
         let place = progress.clamp(0.0, 1.0) * self.intervals() as f64;
         let interval = (place as usize).min(self.intervals() - 1);
@@ -170,17 +157,10 @@ mod tests {
     }
 
     #[test]
-    fn rows_are_met_exactly_and_the_ends_hold() {
+    fn lookups_meet_the_rows_exactly_and_clamp_at_the_ends() {
         let table = table();
         for (progress, row) in [(-1.0, 0), (0.0, 0), (0.5, 1), (1.0, 2), (7.0, 2)] {
             assert_eq!(table.at(progress), table.rows[row].motion, "at progress {progress}");
         }
-    }
-
-    #[test]
-    fn the_dynamic_part_grows_with_the_square_of_the_speed() {
-        let table = table();
-        assert!((table.ground(0.25, 2.0).force.z - (1.5 + 4.0 * 10.0)).abs() < 1e-12);
-        assert!((table.torques(0.75, 3.0)[Joint::RightKnee] - (3.0 + 9.0 * 10.0)).abs() < 1e-12);
     }
 }

@@ -1,7 +1,7 @@
 //! The nominal half-step as a file: CSV that a spreadsheet reads, with a header of `#` lines.
 //!
-//! Numbers are the shortest that read back to the same bits, so reading and writing again changes no byte. Joint columns
-//! carry the paper's numbers: `joint_01_angle_rad` … `joint_20_torque_dynamic_nm`.
+//! Numbers are the shortest that read back to the same bits, so reading and writing again changes no byte. Joint
+//! columns carry the paper's numbers: `joint_01_angle_rad` … `joint_20_torque_dynamic_nm`.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -11,44 +11,52 @@ use nalgebra::Vector3;
 
 use crate::{NominalRow, NominalTable};
 
-/// How many lines begin with `#`.
+/// Number of header lines, which begin with `#`.
 const HEADER_LINES: usize = 4;
+/// The first line of the header.
 const VERSION: &str = "# halfstep nominal half-step v1";
+/// Beginning of the second line of the header, before the command that made the table.
 const MADE_BY: &str = "# made by: ";
+/// Beginning of the third line of the header, before the fingerprint of the mechanism.
 const MECHANISM: &str = "# mechanism: ";
+/// Beginning of the fourth line of the header, before the duration.
 const DURATION: &str = "# duration_s = ";
 
-/// What a row holds of each joint, in the file's order, after the `interval` and `t_s` columns.
+/// Largest difference of a row's time from the one that follows from the duration (s): a spreadsheet may round.
+const TIME_TOLERANCE: f64 = 1e-6;
+
+/// The quantities of each joint in a row, in the file's order, after the `interval` and `t_s` columns.
 const JOINT_QUANTITIES: [&str; 5] =
     ["angle_rad", "rate_rad_s", "acceleration_rad_s2", "torque_gravity_nm", "torque_dynamic_nm"];
-/// What a row holds of the ground, after the joints.
+/// The parts of the ground's wrench in a row, after the joints.
 const GROUND_PARTS: [&str; 2] = ["gravity", "dynamic"];
+/// The components of a wrench, in the file's order.
 const WRENCH_COMPONENTS: [&str; 6] = ["fx_n", "fy_n", "fz_n", "mx_nm", "my_nm", "mz_nm"];
 
 /// Why a table's file could not be read or written. Lines and columns count from 1.
 #[derive(Debug, thiserror::Error)]
 pub enum TableFileError {
-    /// The operating system says no.
+    /// The operating system refused.
     #[error("{file}: {source}", file = file.display())]
     Io {
         /// The file.
         file: PathBuf,
-        /// What the system says.
+        /// The reason given by the system.
         source: io::Error,
     },
-    /// A line of the header is not what it must be.
+    /// A line of the header is wrong.
     #[error("{file}:{line}: the header says `{found}` where it must say {expected}", file = file.display())]
     Header {
         /// The file.
         file: PathBuf,
         /// The line.
         line: u64,
-        /// What stands there.
+        /// The text found there.
         found: String,
-        /// What would be right.
+        /// The text or value that would be right.
         expected: String,
     },
-    /// A column has another name than it must have.
+    /// A column has a wrong name.
     #[error("{file}:{line}: column {column} is named `{found}`; it must be `{expected}`", file = file.display())]
     ColumnName {
         /// The file.
@@ -57,9 +65,9 @@ pub enum TableFileError {
         line: u64,
         /// The column, from 1.
         column: usize,
-        /// Its name; empty where the line ends early.
+        /// The name found; empty where the line ends early.
         found: String,
-        /// What would be right.
+        /// The text or value that would be right.
         expected: String,
     },
     /// A row is too short or too long.
@@ -72,12 +80,12 @@ pub enum TableFileError {
         file: PathBuf,
         /// The line.
         line: u64,
-        /// How many values the row has.
+        /// Number of values in the row.
         found: usize,
-        /// How many it must have.
+        /// Number of values that it must have.
         expected: usize,
     },
-    /// A value is not what it must be.
+    /// A value is wrong.
     #[error("{file}:{line}: {column} is `{value}`; it must be {expected}", file = file.display())]
     Value {
         /// The file.
@@ -86,38 +94,47 @@ pub enum TableFileError {
         line: u64,
         /// The column's name.
         column: String,
-        /// What stands there.
+        /// The text found there.
         value: String,
-        /// What would be right.
+        /// The text or value that would be right.
         expected: String,
     },
-    /// The bytes are no CSV text.
+    /// The text is not valid CSV.
     #[error("{file}: {source}", file = file.display())]
     Csv {
         /// The file.
         file: PathBuf,
-        /// What is wrong, with the line.
+        /// The reason given by the CSV reader, with the line.
         source: csv::Error,
     },
-    /// The header has one line for it.
+    /// The command that made the table has several lines; the header has one for it.
     #[error("the table is said to be made by {0:?}: the file's header needs that on one line")]
     MadeByOnSeveralLines(String),
 }
 
 impl NominalTable {
-    /// Reads a file. The values are finite and equally spaced in time; [`check`](Self::check) says whether they are a
+    /// Reads a file. Its values are finite and equally spaced in time; [`check`](Self::check) tests whether they are a
     /// half-step.
+    ///
+    /// # Errors
+    /// The file cannot be read, or the first mistake in it.
     pub fn read_csv(file: &Path) -> Result<Self, TableFileError> {
         let text = std::fs::read_to_string(file).map_err(|source| TableFileError::Io { file: file.into(), source })?;
         Self::from_csv(&text, file)
     }
 
     /// Writes a file.
+    ///
+    /// # Errors
+    /// The file cannot be written, or `made_by` has several lines.
     pub fn write_csv(&self, file: &Path) -> Result<(), TableFileError> {
         std::fs::write(file, self.to_csv()?).map_err(|source| TableFileError::Io { file: file.into(), source })
     }
 
-    /// The file's text.
+    /// The text of the file.
+    ///
+    /// # Errors
+    /// `made_by` has several lines.
     pub fn to_csv(&self) -> Result<String, TableFileError> {
         if self.made_by.contains(['\n', '\r']) {
             return Err(TableFileError::MadeByOnSeveralLines(self.made_by.clone()));
@@ -140,7 +157,10 @@ impl NominalTable {
         Ok(text)
     }
 
-    /// Reads a file's text; `file` is its name in errors.
+    /// Reads the text of a file; `file` is its name in errors.
+    ///
+    /// # Errors
+    /// The first mistake in it.
     pub fn from_csv(text: &str, file: &Path) -> Result<Self, TableFileError> {
         let mut table = read_header(text, file)?;
         let body: usize = text.split_inclusive('\n').take(HEADER_LINES).map(str::len).sum();
@@ -170,7 +190,7 @@ impl NominalTable {
         Ok(table)
     }
 
-    /// When the row of `interval` is, of so many rows [s].
+    /// Time of the row at the start of `interval`, in a table with this number of rows (s).
     fn time(&self, interval: usize, rows: usize) -> f64 {
         self.duration * interval as f64 / (rows.max(2) - 1) as f64
     }
@@ -237,8 +257,8 @@ fn read_row(
     if record[0].parse() != Ok(interval) {
         return Err(wrong(0, format!("{interval}: rows count from 0 without gaps")));
     }
-    // A spreadsheet may round the time, which only repeats what the duration and the row say.
-    if (number(1)? - time).abs() > 1e-6 {
+    // The time only repeats what follows from duration and row.
+    if (number(1)? - time).abs() > TIME_TOLERANCE {
         return Err(wrong(1, format!("{time:?}: rows are equally spaced from 0 to the duration")));
     }
     let numbers = (2..names.len()).map(number).collect::<Result<Vec<_>, _>>()?;
@@ -259,7 +279,7 @@ fn read_row(
     })
 }
 
-/// All columns, from left to right.
+/// The names of all columns, from left to right.
 fn column_names() -> Vec<String> {
     let joint = |quantity: &'static str| {
         Joint::ALL.into_iter().map(move |joint| format!("joint_{:02}_{quantity}", joint.number()))
@@ -274,7 +294,7 @@ fn column_names() -> Vec<String> {
         .collect()
 }
 
-/// A row's values in the order of the columns, after time.
+/// The values of a row in the order of the columns, after the time.
 fn values(row: &NominalRow) -> impl Iterator<Item = f64> {
     let NominalRow { motion, torque_gravity, torque_dynamic, ground_gravity, ground_dynamic } = *row;
     [motion.angles, motion.rates, motion.accelerations, torque_gravity, torque_dynamic]

@@ -1,9 +1,10 @@
 //! Turning (DESIGN §4.1, paper eqs. 1 and 2): the swing foot lands turned out by `α`.
 //!
 //! Half of `α` goes into either hip yaw, joints 7 and 10. One half-step deflects (eq. 1), the next restores (eq. 2), so
-//! that the feet are parallel before the next deflection begins: a full step turns the walk by `α`, positive to the left.
-//! Turning left deflects while standing on the right foot, turning right while standing on the left: the foot always
-//! turns *out*. Hip yaw keeps its sign at the swap, so in canonical coordinates either is a positive offset `|α|/2`.
+//! that the feet are parallel before the next deflection begins: a full step turns the walk by `α`, positive to the
+//! left. Turning left deflects while standing on the right foot, turning right while standing on the left: the foot
+//! always turns *out*. Hip yaw keeps its sign at the support change, so in canonical coordinates either is a positive
+//! offset `|α|/2`.
 //!
 //! The yaw is about the pelvis' vertical as long as pitch and roll add up to zero from the sole to the hip yaw. They do
 //! in pitch while the nominal's pelvis is upright. Roll lies beyond the yaw, at the hip: while the support leg leans
@@ -13,31 +14,34 @@ use model::{Joint, JointVector, Mechanism, Motion, Side};
 
 use crate::{Ramp, RampKind, RampState, WalkError};
 
-/// What a half-step does about the turn.
+/// The part of a half-step in a turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TurnPhase {
-    /// Feet parallel throughout.
+    /// The feet stay parallel.
     Straight,
-    /// The swing foot turns out.
+    /// The swing foot lands turned out.
     Deflect,
-    /// The deflection is taken out again.
+    /// The deflection is removed: the swing foot lands parallel again.
     Restore,
 }
 
-/// The turn in force and its offset in the present half-step.
+/// The commanded turn and its offset in the present half-step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turn {
     /// One on each hip yaw, with the sign that turns the feet apart.
     apart: JointVector,
+    /// Shape of the ramps.
     kind: RampKind,
+    /// `α` as commanded (rad).
     angle: f64,
+    /// The part of the present half-step.
     phase: TurnPhase,
-    /// Angle of either hip over progress [rad].
+    /// Offset of either hip over progress (rad).
     ramp: Ramp,
 }
 
 impl Turn {
-    /// Walking straight on.
+    /// No turn: walking straight on.
     ///
     /// # Errors
     /// [`WalkError::HipYawNotVertical`] when joint 7 or 10 does not turn about z.
@@ -53,23 +57,23 @@ impl Turn {
         Ok(Self { apart, kind, angle: 0.0, phase: TurnPhase::Straight, ramp: Ramp::hold(0.0) })
     }
 
-    /// `α` in force: by how much a full step turns the walk [rad], positive to the left.
+    /// `α` as commanded: change of heading per full step (rad), positive to the left.
     pub fn angle(&self) -> f64 {
         self.angle
     }
 
-    /// What the present half-step does.
+    /// The part of the present half-step.
     pub fn phase(&self) -> TurnPhase {
         self.phase
     }
 
-    /// Turns by `angle` from the next deflecting half-step on.
+    /// Commands a turn by `angle` per full step (rad), from the next deflecting half-step on.
     pub fn request(&mut self, angle: f64) {
         self.angle = angle;
     }
 
-    /// How many half-steps from the present one, on `support`, a change to `angle` takes effect: where the next deflection
-    /// for it begins; for a change to straight on, where the next deflection is left out.
+    /// Number of half-steps from the present one, on `support`, until a change to `angle` takes effect: where the next
+    /// deflection for it begins; for a change to straight on, where the next deflection is omitted.
     pub fn delay(&self, angle: f64, support: Side) -> u64 {
         let (delay, foot) = match self.phase {
             TurnPhase::Deflect => (2, support),
@@ -79,7 +83,7 @@ impl Turn {
         if deflecting.is_some_and(|deflecting| deflecting != foot) { delay + 1 } else { delay }
     }
 
-    /// Begins a half-step on `support`. After a deflection this restores, whatever is asked.
+    /// Begins a half-step on `support`. After a deflection it restores, whatever the command.
     pub fn begin_half_step(&mut self, support: Side) {
         self.phase = match self.phase {
             TurnPhase::Deflect => TurnPhase::Restore,
@@ -92,12 +96,12 @@ impl Turn {
         self.ramp = Ramp::new(self.kind, self.ramp.end(), to);
     }
 
-    /// The angle of either hip at `progress` [rad], derivatives by progress.
+    /// The offset of either hip at `progress` (rad), with derivatives by progress.
     pub fn per_hip(&self, progress: f64) -> RampState {
         self.ramp.at(progress)
     }
 
-    /// The offsets at `progress` in canonical coordinates, at nominal speed in a half-step of `duration` [s].
+    /// The offsets of all joints at `progress`, canonical, at nominal speed in a half-step of `duration` (s).
     pub fn at(&self, progress: f64, duration: f64) -> Motion {
         let per_hip = self.per_hip(progress).by(duration.recip());
         Motion {
@@ -108,7 +112,7 @@ impl Turn {
     }
 }
 
-/// The foot to stand on while the other one turns out; none when there is no turn.
+/// The support foot while the other foot turns out; `None` when there is no turn.
 fn deflecting_support(angle: f64) -> Option<Side> {
     if angle > 0.0 {
         Some(Side::Right)

@@ -1,16 +1,17 @@
-//! Goal: a full step turns the walk by α, left is positive; after a deflection and its restoration the feet are parallel;
-//! turning hardly tilts the soles.
+//! Goal: a full step turns the walk by α, left is positive; after a deflection and its restoration the feet are
+//! parallel; turning hardly tilts the soles.
 //!
 //! Method: forward kinematics from sole to sole, footprint after footprint.
 
 mod common;
 
-use gait::{Command, GaitParameters, RampKind, TurnPhase, Walk};
+use gait::{GaitParameters, RampKind, TurnPhase, Walk};
+use interface::Command;
 use model::{Joint, Mechanism, Side};
 use nalgebra::{Isometry2, Vector2};
 use proptest::prelude::*;
 
-/// The footprint at the end of the present half-step, from the footprint that bears, in the floor's plane.
+/// The footprint at the end of the present half-step, relative to the support footprint, in the plane of the floor.
 fn next_footprint(walk: &Walk, mechanism: &Mechanism) -> Isometry2<f64> {
     let sole = common::left_sole_to_right_sole(mechanism, &walk.motion_at(1.0).angles);
     let side = match walk.half_step().support {
@@ -26,12 +27,12 @@ fn finish_half_step(walk: &mut Walk) {
 }
 
 #[test]
-fn a_full_step_turns_the_walk_by_the_angle_asked_for() {
+fn a_full_step_turns_the_walk_by_the_commanded_angle() {
     let mechanism = common::mechanism();
     for ramp in [RampKind::Linear, RampKind::Quintic] {
         for degrees in [-30.0, -7.0, 0.0, 12.0, 25.0_f64] {
             let command = Command { turn: degrees.to_radians(), ..Command::NOMINAL };
-            let parameters = GaitParameters { ramp, ..GaitParameters::default() };
+            let parameters = GaitParameters { ramp, ..common::parameters() };
             let support = if degrees < 0.0 { Side::Left } else { Side::Right };
             let mut walk = common::walk(&parameters, support, command);
             let mut footprint = Isometry2::identity();
@@ -54,7 +55,7 @@ proptest! {
     #[test]
     fn feet_are_parallel_after_a_deflection_and_its_restoration(stream in common::streams(), linear: bool) {
         let ramp = if linear { RampKind::Linear } else { RampKind::Quintic };
-        let parameters = GaitParameters { ramp, ..GaitParameters::default() };
+        let parameters = GaitParameters { ramp, ..common::parameters() };
         let mut walk = common::walk(&parameters, Side::Right, Command::NOMINAL);
         let mechanism = common::mechanism();
         let mut outward: Option<f64> = None;
@@ -84,15 +85,15 @@ proptest! {
     }
 }
 
-/// Yaw at the hips is about an axis that the legs' roll has tilted. In the synthetic half-step the roll reaches 2.9° amid
-/// the half-step and is zero at its ends: turning by 30° tilts the swinging sole by up to 1.02° on the way, and not at all
-/// at touchdown.
+/// Yaw at the hips is about an axis that the legs' roll has tilted. In the synthetic half-step the roll reaches 2.9°
+/// amid the half-step and is zero at its ends: turning by 30° tilts the swinging sole by up to 1.02° on the way, and
+/// not at all at touchdown.
 #[test]
 fn turning_tilts_the_soles_little_and_not_at_touchdown() {
     let mechanism = common::mechanism();
     let turn = 30_f64.to_radians();
     let turning = Command { turn, ..Command::NOMINAL };
-    let mut walk = common::walk(&GaitParameters::default(), Side::Right, turning);
+    let mut walk = common::walk(&common::parameters(), Side::Right, turning);
     let mut largest: f64 = 0.0;
     for phase in [TurnPhase::Deflect, TurnPhase::Restore, TurnPhase::Deflect] {
         assert_eq!(walk.turn().phase(), phase);

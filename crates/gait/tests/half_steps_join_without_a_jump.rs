@@ -1,26 +1,27 @@
-//! Goal: whatever is requested whenever, no joint jumps in angle, and with quintic ramps in rate, at any tick or swap;
-//! and the rates and accelerations are the derivatives of the angles and rates.
+//! Goal: whatever is requested whenever, no joint jumps in angle, and with quintic ramps in rate, at any tick or
+//! support change; and the rates and accelerations are the derivatives of the angles and rates.
 //!
-//! Method: random request streams; from tick to tick each joint is compared with the trapezoidal rule over the derivative,
-//! whose error is bounded by the largest jerk there is (estimated by hand: about 400 rad/s³ for the largest turn at
-//! c = 1.4). A jump in rate of 1 mrad/s or in angle of 1 µrad would be found.
+//! Method: random request streams; from tick to tick each joint is compared with the trapezoidal rule over the
+//! derivative, whose error is bounded by the largest jerk there is (estimated by hand: about 400 rad/s³ for the largest
+//! turn at c = 1.4). A jump in rate of 1 mrad/s or in angle of 1 µrad would be found.
 
 mod common;
 
-use gait::{Command, GaitParameters, RampKind, Request};
+use gait::{GaitParameters, RampKind};
+use interface::{Command, GaitChange};
 use model::{Joint, Motion, Side};
 use proptest::prelude::*;
 
 const DT: f64 = 0.001;
-/// [rad/s³]
+/// (rad/s³)
 const JERK_MAX: f64 = 800.0;
 
-/// By how much rates changed beyond what the accelerations account for [rad/s].
+/// By how much rates changed beyond what the accelerations account for (rad/s).
 fn rate_jump(before: &Motion, after: &Motion) -> f64 {
     (after.rates - before.rates - (before.accelerations + after.accelerations) * (0.5 * DT)).max_abs()
 }
 
-/// By how much angles changed beyond what the rates account for [rad].
+/// By how much angles changed beyond what the rates account for (rad).
 fn angle_jump(before: &Motion, after: &Motion) -> f64 {
     (after.angles - before.angles - (before.rates + after.rates) * (0.5 * DT)).max_abs()
 }
@@ -31,7 +32,7 @@ proptest! {
     #[test]
     fn quintic_ramps_keep_every_joint_continuous_in_angle_and_rate(stream in common::streams(), left: bool) {
         let support = if left { Side::Left } else { Side::Right };
-        let mut walk = common::walk(&GaitParameters::default(), support, Command::NOMINAL);
+        let mut walk = common::walk(&common::parameters(), support, Command::NOMINAL);
         let mut before = walk.physical_motion();
         for (ticks, request) in stream {
             walk.admit(&request);
@@ -47,7 +48,7 @@ proptest! {
 
     #[test]
     fn linear_ramps_keep_every_joint_continuous_in_angle(stream in common::streams()) {
-        let parameters = GaitParameters { ramp: RampKind::Linear, ..GaitParameters::default() };
+        let parameters = GaitParameters { ramp: RampKind::Linear, ..common::parameters() };
         let mut walk = common::walk(&parameters, Side::Right, Command::NOMINAL);
         let mut before = walk.physical_motion();
         for (ticks, request) in stream {
@@ -70,7 +71,7 @@ proptest! {
 /// Largest jump of a rate from tick to tick in two full steps of turning.
 fn largest_rate_jump(ramp: RampKind) -> f64 {
     let turning = Command { turn: 20_f64.to_radians(), ..Command::NOMINAL };
-    let mut walk = common::walk(&GaitParameters { ramp, ..GaitParameters::default() }, Side::Right, turning);
+    let mut walk = common::walk(&GaitParameters { ramp, ..common::parameters() }, Side::Right, turning);
     let mut before = walk.physical_motion();
     let mut largest: f64 = 0.0;
     for _ in 0..2400 {
@@ -83,7 +84,7 @@ fn largest_rate_jump(ramp: RampKind) -> f64 {
 }
 
 #[test]
-fn linear_turning_jumps_in_rate_at_the_swap_and_quintic_does_not() {
+fn linear_turn_ramps_jump_in_rate_at_the_support_change_and_quintic_ones_do_not() {
     // Deflecting at α/2 per T, then restoring at as much: the rate jumps by twice that.
     let expected = 20_f64.to_radians() / common::DURATION;
     let linear = largest_rate_jump(RampKind::Linear);
@@ -92,9 +93,9 @@ fn linear_turning_jumps_in_rate_at_the_swap_and_quintic_does_not() {
 }
 
 #[test]
-fn progress_beyond_the_end_is_carried_over_the_swap() {
-    let mut walk = common::walk(&GaitParameters::default(), Side::Right, Command::NOMINAL);
-    walk.admit(&Request { speed: Some(1.3), ..Request::default() });
+fn progress_beyond_the_end_is_carried_over_to_the_next_half_step() {
+    let mut walk = common::walk(&common::parameters(), Side::Right, Command::NOMINAL);
+    walk.admit(&GaitChange { speed: Some(1.3), ..GaitChange::default() });
     let mut in_one = walk.clone();
     for _ in 0..12 {
         walk.advance(0.05);
@@ -106,8 +107,8 @@ fn progress_beyond_the_end_is_carried_over_the_swap() {
 }
 
 #[test]
-fn nonsense_as_time_does_not_move_the_walk() {
-    let mut walk = common::walk(&GaitParameters::default(), Side::Right, Command::NOMINAL);
+fn a_time_step_that_is_not_positive_does_not_move_the_walk() {
+    let mut walk = common::walk(&common::parameters(), Side::Right, Command::NOMINAL);
     walk.advance(0.1);
     let before = walk.half_step();
     for dt in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {

@@ -6,12 +6,13 @@ mod common;
 
 use std::sync::Arc;
 
-use gait::{Command, GaitParameters, RampKind, Start, Walk};
+use gait::{GaitParameters, RampKind, Start, Walk};
+use interface::Command;
 use model::{Joint, Mechanism};
 
 fn extended_walk(mechanism: &Mechanism, ramp: RampKind, extension: f64) -> Walk {
     let start = Start { command: Command { extension, ..Command::NOMINAL }, ..Start::default() };
-    let parameters = GaitParameters { ramp, ..GaitParameters::default() };
+    let parameters = GaitParameters { ramp, ..common::parameters() };
     Walk::new(Arc::new(common::table(mechanism)), mechanism, &parameters, start).expect("a valid walk")
 }
 
@@ -20,7 +21,7 @@ fn finish_half_step(walk: &mut Walk) {
 }
 
 #[test]
-fn soles_are_level_throughout() {
+fn soles_are_level_throughout_extended_steps() {
     let mechanism = common::mechanism();
     for ramp in [RampKind::Linear, RampKind::Quintic] {
         for degrees in [-8.0, 5.0, 8.0_f64] {
@@ -36,7 +37,7 @@ fn soles_are_level_throughout() {
 
 /// Roll between ankle pitch and knee couples: 2.9° of it and an offset of 4° tilt the soles by 0.27° on the way.
 #[test]
-fn under_the_other_reading_soles_tilt_by_roll_times_offset() {
+fn soles_tilt_by_roll_times_offset_under_the_other_reading_of_the_axes() {
     let mechanism = common::other_reading();
     let mut walk = extended_walk(&mechanism, RampKind::Quintic, 8_f64.to_radians());
     let plain = extended_walk(&mechanism, RampKind::Quintic, 0.0);
@@ -55,7 +56,7 @@ fn under_the_other_reading_soles_tilt_by_roll_times_offset() {
 }
 
 #[test]
-fn steps_grow_with_the_extension() {
+fn step_length_grows_with_the_extension() {
     let mechanism = common::mechanism();
     let reach = |degrees: f64| {
         let mut walk = extended_walk(&mechanism, RampKind::Quintic, degrees.to_radians());
@@ -73,7 +74,7 @@ fn steps_grow_with_the_extension() {
 }
 
 #[test]
-fn in_steady_walking_the_offset_runs_from_minus_half_to_plus_half() {
+fn the_extension_offset_runs_from_minus_half_to_plus_half_in_steady_walking() {
     let mechanism = common::mechanism();
     for ramp in [RampKind::Linear, RampKind::Quintic] {
         let extension = 6_f64.to_radians();

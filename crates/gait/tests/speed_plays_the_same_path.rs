@@ -5,13 +5,14 @@
 
 mod common;
 
-use gait::{Command, GaitParameters, RampKind, Request};
+use gait::{GaitParameters, RampKind};
+use interface::{Command, GaitChange};
 use model::Side;
 
 #[test]
-fn at_constant_speed_it_is_the_nominal_scaled() {
+fn the_motion_at_constant_speed_is_the_nominal_scaled_in_time() {
     for c in [0.6, 0.95, 1.0, 1.4] {
-        let mut walk = common::walk(&GaitParameters::default(), Side::Right, Command { speed: c, ..Command::NOMINAL });
+        let mut walk = common::walk(&common::parameters(), Side::Right, Command { speed: c, ..Command::NOMINAL });
         for tick in 0..400 {
             let t = 0.001 * f64::from(tick);
             let nominal = walk.table().at(c * t / common::DURATION);
@@ -25,12 +26,12 @@ fn at_constant_speed_it_is_the_nominal_scaled() {
 }
 
 #[test]
-fn while_speed_changes_the_path_stays_and_accelerations_include_the_change() {
+fn the_path_stays_while_the_speed_changes_and_accelerations_include_the_change() {
     let dt = 1e-4;
     for ramp in [RampKind::Linear, RampKind::Quintic] {
-        let parameters = GaitParameters { ramp, ..GaitParameters::default() };
+        let parameters = GaitParameters { ramp, ..common::parameters() };
         let mut walk = common::walk(&parameters, Side::Right, Command::NOMINAL);
-        walk.admit(&Request { speed: Some(1.4), ..Request::default() });
+        walk.admit(&GaitChange { speed: Some(1.4), ..GaitChange::default() });
         let mut largest_share: f64 = 0.0;
         for _ in 0..4000 {
             walk.advance(dt);
@@ -51,9 +52,9 @@ fn while_speed_changes_the_path_stays_and_accelerations_include_the_change() {
 }
 
 #[test]
-fn a_speed_is_reached_after_the_time_configured() {
-    let mut walk = common::walk(&GaitParameters::default(), Side::Right, Command::NOMINAL);
-    walk.admit(&Request { speed: Some(0.8), ..Request::default() });
+fn a_commanded_speed_is_reached_after_the_configured_time() {
+    let mut walk = common::walk(&common::parameters(), Side::Right, Command::NOMINAL);
+    walk.admit(&GaitChange { speed: Some(0.8), ..GaitChange::default() });
     for _ in 0..599 {
         walk.advance(0.001);
     }

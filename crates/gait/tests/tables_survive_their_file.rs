@@ -1,5 +1,5 @@
-//! Goal: a table read back from its file is the same to the last bit and writes the same bytes; a spoilt file is refused
-//! with the place, the value and what would be right.
+//! Goal: a table read back from its file is the same to the last bit and writes the same bytes; a spoilt file is
+//! refused with the place, the value and what would be right.
 //!
 //! Method: round trips of awkward numbers; one fault at a time in a good file.
 
@@ -23,7 +23,7 @@ fn message(from: &str, to: &str) -> String {
 }
 
 #[test]
-fn a_file_reads_back_to_the_same_table_and_bytes() {
+fn a_nominal_file_reads_back_to_the_same_table_and_bytes() {
     let directory = tempfile::tempdir().expect("a directory");
     let file = directory.path().join("nominal.csv");
     let table = common::table(&common::mechanism());
@@ -37,7 +37,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn every_number_keeps_its_bits(
+    fn every_number_of_a_nominal_file_keeps_its_bits(
         values in prop::array::uniform20(prop::num::f64::NORMAL | prop::num::f64::SUBNORMAL | prop::num::f64::ZERO),
         duration in 0.01_f64..10.0,
     ) {
@@ -53,7 +53,7 @@ proptest! {
 }
 
 #[test]
-fn columns_carry_the_papers_numbers() {
+fn columns_of_a_nominal_file_carry_the_papers_joint_numbers() {
     let text = common::table(&common::mechanism()).to_csv().expect("text");
     let names: Vec<_> = text.lines().nth(4).expect("names").split(',').collect();
     assert_eq!(names.len(), 2 + 5 * Joint::COUNT + 12);
@@ -64,7 +64,7 @@ fn columns_carry_the_papers_numbers() {
 }
 
 #[test]
-fn faults_are_named_with_their_place() {
+fn mistakes_in_a_nominal_file_are_reported_with_their_place() {
     assert_eq!(
         message("half-step v1", "half-step v2"),
         "nominal.csv:1: the header says `# halfstep nominal half-step v2` where it must say \
@@ -106,7 +106,7 @@ fn faults_are_named_with_their_place() {
 }
 
 #[test]
-fn a_command_on_several_lines_is_not_written() {
+fn a_nominal_made_by_a_command_of_several_lines_is_not_written() {
     let mut table = common::table(&common::mechanism());
     table.made_by = "one\ntwo".into();
     assert!(matches!(table.to_csv(), Err(TableFileError::MadeByOnSeveralLines(_))));

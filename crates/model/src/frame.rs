@@ -1,8 +1,8 @@
-//! Frames, described once.
+//! Coordinate frames, described once.
 //!
-//! * **world**: fixed to the floor, z up; x is where the walk headed when it began.
-//! * **support**: origin O on the floor under the ankle of the bearing foot, x along that foot, z up. The code always
-//!   stands on the *right* foot: on the left one, support coordinates are mirrored in y.
+//! * **world**: fixed to the floor, z up; x is the heading of the robot at the start.
+//! * **support**: origin O on the floor under the ankle of the support foot, x along that foot, z up. The code always
+//!   stands on the *right* foot: when the left one is the support foot, support coordinates are mirrored in y.
 //! * **sole**: origin on a sole under its ankle, x forward, z up when the foot is flat.
 //! * **link**: origin on the joint that carries the link; parallel to the world at zero angles.
 //!
@@ -11,15 +11,17 @@
 
 use nalgebra::Vector3;
 
-/// Standard gravity [m/s²], pointing down.
+use crate::{Mirror, Mirrored};
+
+/// Standard gravity (m/s²), pointing down.
 pub const GRAVITY: f64 = 9.80665;
 
-/// Force and moment about a named origin, both in the axes of a named frame.
+/// A wrench: a force, and a moment about an origin, both expressed in one frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wrench {
-    /// [N]
+    /// The force (N).
     pub force: Vector3<f64>,
-    /// [N·m]
+    /// The moment about the origin (N·m).
     pub moment: Vector3<f64>,
 }
 
@@ -27,13 +29,13 @@ impl Wrench {
     /// No force, no moment.
     pub const ZERO: Wrench = Wrench { force: Vector3::new(0.0, 0.0, 0.0), moment: Vector3::new(0.0, 0.0, 0.0) };
 
-    /// The wrench of a force that acts at a point.
+    /// The wrench of a force (N) that acts at a point (m).
     #[inline]
     pub fn at_point(force: Vector3<f64>, point: Vector3<f64>) -> Self {
         Self { force, moment: point.cross(&force) }
     }
 
-    /// The same wrench about another origin, which lies at `origin` as seen from the present one.
+    /// The same wrench about another origin, whose position relative to the present origin is `origin` (m).
     #[inline]
     pub fn about(&self, origin: Vector3<f64>) -> Self {
         Self { force: self.force, moment: self.moment - origin.cross(&self.force) }
@@ -43,9 +45,11 @@ impl Wrench {
     pub fn is_finite(&self) -> bool {
         self.force.iter().chain(self.moment.iter()).all(|value| value.is_finite())
     }
+}
 
-    /// The mirror image in the sagittal plane: a force keeps x and z, a moment keeps y.
-    pub fn mirrored(&self) -> Self {
+impl Mirrored for Wrench {
+    /// A force keeps x and z, a moment keeps y.
+    fn mirrored(&self, _: &Mirror) -> Self {
         Self {
             force: Vector3::new(self.force.x, -self.force.y, self.force.z),
             moment: Vector3::new(-self.moment.x, self.moment.y, -self.moment.z),

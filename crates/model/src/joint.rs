@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 /// One degree of freedom, named for what it does under the agreed axes (`config/mechanism.toml`).
 ///
-/// The tree stands on its **right** foot: each joint carries the link that follows it when one walks from the ground
-/// up the right leg, through the pelvis, and out along the left leg, the trunk and the arms.
+/// The tree stands on its **right** foot: each joint carries the link that follows it on the way from the ground up the
+/// right leg, through the pelvis, and out along the left leg, the trunk and the arms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[repr(u8)]
@@ -47,7 +47,7 @@ pub enum Joint {
 }
 
 impl Joint {
-    /// How many joints there are.
+    /// Number of joints.
     pub const COUNT: usize = 20;
 
     /// All joints in the paper's order; parents come before their children.
@@ -148,13 +148,13 @@ impl Joint {
         Joint::ALL.into_iter().find(|joint| joint.name() == name)
     }
 
-    /// Whether a motor drives it.
+    /// Whether a motor drives the joint.
     pub const fn is_powered(self) -> bool {
         self as u8 >= Joint::FIRST_POWERED as u8
     }
 
-    /// Whether it belongs to the chain from one foot over the pelvis to the other, which is walked the other way round
-    /// after a mirror.
+    /// Whether the joint belongs to the chain from one foot over the pelvis to the other, whose order the mirror
+    /// reverses.
     pub const fn is_in_leg(self) -> bool {
         self as u8 >= Joint::RightAnkleRoll as u8 && self as u8 <= Joint::LeftAnkleRoll as u8
     }

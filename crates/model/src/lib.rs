@@ -1,8 +1,9 @@
 //! What the robot is: joints, links, mechanism, mirror, frames, sole, limits.
 //!
-//! Facts only: nothing here moves. Angles are radians, lengths metres; degrees and joint numbers exist in text only.
+//! Facts only, no motion generation. Angles are in radians, lengths in metres; degrees and joint numbers exist in text
+//! only.
 
-pub mod config;
+mod com_state;
 pub mod frame;
 mod joint;
 mod mechanism;
@@ -13,10 +14,11 @@ mod per_joint;
 mod side;
 mod sole;
 
+pub use com_state::ComState;
 pub use frame::{GRAVITY, Wrench};
 pub use joint::Joint;
 pub use mechanism::{Body, JointLimits, Link, Mechanism, Motor};
-pub use mirror::{Mirror, partner};
+pub use mirror::{Mirror, Mirrored, partner};
 pub use motion::Motion;
 pub use per_joint::{JointVector, PerJoint};
 pub use side::Side;

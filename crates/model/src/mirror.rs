@@ -1,12 +1,29 @@
-//! The mirror: what the robot does on its left foot, told as if it stood on its right (DESIGN §4.5, the swap).
+//! The mirror: a motion on the left foot, expressed as if the robot stood on its right foot (DESIGN §4.5, the support
+//! change).
 //!
 //! Reflection in the sagittal plane exchanges right and left and keeps rotations about y, while rotations about x and z
-//! change sign. The chain from foot to foot is also walked the other way round, which changes the sign once more: so in
-//! the legs pitch exchanges with −, roll and yaw with +. The minus signs of the paper's eq. (2) come from here.
+//! change sign. The order of the chain from foot to foot is also reversed, which changes the sign once more: so in the
+//! legs pitch exchanges with −, roll and yaw with +. The minus signs of the paper's eq. (2) come from here.
 
-use crate::{Joint, JointVector, Mechanism, PerJoint};
+use crate::{Joint, JointVector, Mechanism, PerJoint, Side};
 
-/// How joint angles, rates, accelerations and torques are relabelled at a swap. Applied twice it is the identity.
+/// A quantity with a mirror image in the sagittal plane.
+pub trait Mirrored {
+    /// The mirror image. Mirrored twice, every quantity is itself again.
+    ///
+    /// * `mirror` – exchanges the joints of the two sides; a quantity without joints does not need it
+    #[must_use]
+    fn mirrored(&self, mirror: &Mirror) -> Self;
+}
+
+impl Mirrored for JointVector {
+    fn mirrored(&self, mirror: &Mirror) -> Self {
+        mirror.apply(self)
+    }
+}
+
+/// How joint angles, rates, accelerations and torques are relabelled when the support foot changes. Applied twice it is
+/// the identity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mirror {
     partner: PerJoint<Joint>,
@@ -14,16 +31,16 @@ pub struct Mirror {
 }
 
 impl Mirror {
-    /// The mirror of a mechanism, whose axes say which joints change sign.
+    /// The mirror of a mechanism; the axes determine which joints change sign.
     ///
-    /// `None` when the mechanism is no mirror image of itself: a joint's axis is neither along nor across y as its
+    /// `None` when the mechanism is not left–right symmetric: a joint's axis is neither along nor across y as its
     /// partner's is.
     pub fn new(mechanism: &Mechanism) -> Option<Self> {
         let mut sign = PerJoint([0.0; Joint::COUNT]);
         for joint in Joint::ALL {
             let axis = mechanism.links[joint].axis;
             let partner = mechanism.links[partner(joint)].axis;
-            // A rotation axis is an axial vector: a reflection in y keeps its y and turns the rest round.
+            // A rotation axis is an axial vector: a reflection in y keeps its y and reverses the rest.
             let along = axis.x * -partner.x + axis.y * partner.y + axis.z * -partner.z;
             if (along.abs() - 1.0).abs() > 1e-9 {
                 return None;
@@ -39,18 +56,32 @@ impl Mirror {
         PerJoint::from_fn(|joint| self.sign[joint] * values[self.partner[joint]])
     }
 
+    /// Expresses a physical quantity in support coordinates, as if the robot stood on its right foot: unchanged with
+    /// `support` on the right, mirrored with `support` on the left.
+    pub fn to_support<T: Mirrored + Clone>(&self, support: Side, physical: &T) -> T {
+        match support {
+            Side::Right => physical.clone(),
+            Side::Left => physical.mirrored(self),
+        }
+    }
+
+    /// Expresses a quantity of support coordinates in physical ones: the inverse of [`to_support`](Self::to_support).
+    pub fn to_physical<T: Mirrored + Clone>(&self, support: Side, in_support: &T) -> T {
+        self.to_support(support, in_support)
+    }
+
     /// The joint that takes this joint's place.
     pub fn partner(&self, joint: Joint) -> Joint {
         self.partner[joint]
     }
 
-    /// The sign with which a joint's value is taken over.
+    /// The sign with which a joint takes over its partner's value: 1 or −1.
     pub fn sign(&self, joint: Joint) -> f64 {
         self.sign[joint]
     }
 }
 
-/// The joint on the other side that does what `joint` does here.
+/// The corresponding joint on the other side; the joint itself in the middle of the body.
 pub const fn partner(joint: Joint) -> Joint {
     use Joint::*;
     match joint {

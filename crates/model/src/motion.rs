@@ -1,25 +1,26 @@
 //! A motion at one instant.
 
-use crate::{JointVector, Mirror};
+use crate::{JointVector, Mirror, Mirrored};
 
-/// Angles [rad], rates [rad/s] and accelerations [rad/s²] of all joints at one instant.
+/// Angles (rad), rates (rad/s) and accelerations (rad/s²) of all joints at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
-    /// [rad]
+    /// Joint angles (rad).
     pub angles: JointVector,
-    /// [rad/s]
+    /// Joint rates (rad/s).
     pub rates: JointVector,
-    /// [rad/s²]
+    /// Joint accelerations (rad/s²).
     pub accelerations: JointVector,
 }
 
 impl Motion {
-    /// At rest in a posture.
+    /// A posture (rad) at rest.
     pub fn at_rest(angles: JointVector) -> Self {
         Self { angles, ..Self::default() }
     }
 
-    /// At the middle one of three postures that follow each other every `step` seconds, by differences.
+    /// The motion at the middle one of three postures that follow each other every `step` seconds, by central
+    /// differences.
     pub fn between(before: &JointVector, here: &JointVector, after: &JointVector, step: f64) -> Self {
         Self {
             angles: *here,
@@ -28,18 +29,19 @@ impl Motion {
         }
     }
 
-    /// The mirror image, told by the other foot.
-    pub fn mirrored(&self, mirror: &Mirror) -> Self {
+    /// Whether no value is NaN or infinite.
+    pub fn is_finite(&self) -> bool {
+        self.angles.is_finite() && self.rates.is_finite() && self.accelerations.is_finite()
+    }
+}
+
+impl Mirrored for Motion {
+    fn mirrored(&self, mirror: &Mirror) -> Self {
         Self {
             angles: mirror.apply(&self.angles),
             rates: mirror.apply(&self.rates),
             accelerations: mirror.apply(&self.accelerations),
         }
-    }
-
-    /// Whether no value is NaN or infinite.
-    pub fn is_finite(&self) -> bool {
-        self.angles.is_finite() && self.rates.is_finite() && self.accelerations.is_finite()
     }
 }
 

@@ -1,4 +1,4 @@
-//! One value per joint, reached by joint and not by number.
+//! One value per joint, indexed by joint and not by number.
 
 use std::ops::{Add, AddAssign, Index, IndexMut, Mul, Neg, Sub, SubAssign};
 
@@ -8,11 +8,11 @@ use crate::Joint;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PerJoint<T>(pub [T; Joint::COUNT]);
 
-/// An angle [rad], rate [rad/s], acceleration [rad/s²] or torque [N·m] for each joint.
+/// An angle (rad), rate (rad/s), acceleration (rad/s²) or torque (N·m) for each joint.
 pub type JointVector = PerJoint<f64>;
 
 impl<T> PerJoint<T> {
-    /// Makes each joint's value from the joint.
+    /// The values that a function assigns to the joints.
     pub fn from_fn(mut value: impl FnMut(Joint) -> T) -> Self {
         Self(std::array::from_fn(|index| value(Joint::ALL[index])))
     }
@@ -27,7 +27,7 @@ impl JointVector {
     /// All zero: the robot standing straight, or at rest.
     pub const ZERO: JointVector = PerJoint([0.0; Joint::COUNT]);
 
-    /// Zero but for one joint.
+    /// One for a joint, zero for all others.
     pub fn unit(joint: Joint) -> Self {
         let mut unit = Self::ZERO;
         unit[joint] = 1.0;
@@ -44,7 +44,7 @@ impl JointVector {
         self.0.iter().fold(0.0, |max, value| value.abs().max(max))
     }
 
-    /// Joint by joint, `f` of both values.
+    /// Joint by joint, the function `f` of both values.
     #[inline]
     pub fn zip_with(&self, other: &Self, mut f: impl FnMut(f64, f64) -> f64) -> Self {
         // A plain loop becomes vector code, an array's from_fn does not.

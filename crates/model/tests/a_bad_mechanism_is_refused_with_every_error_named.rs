@@ -1,6 +1,7 @@
 //! Goal: a bad mechanism file is refused, and one look at the message is enough to repair all of it.
 //! Method: break the committed file in known places and compare the whole text of the refusal.
 
+use config::Config;
 use model::Mechanism;
 
 /// A mistake: in table `table`, the text `right` becomes `wrong`, which is reported as `report`, from the column on.
@@ -52,7 +53,7 @@ fn assert_refused(mistakes: &[Mistake]) {
 }
 
 #[test]
-fn sixteen_mistakes_are_sixteen_lines() {
+fn sixteen_mistakes_in_a_mechanism_file_are_reported_in_sixteen_lines() {
     assert_refused(&[
         mistake("sole", "width_m = 0.08", "width_mm = 80", "1: sole.width_mm = 80: unknown key, write `width_m`"),
         mistake("motor.leg", "0.608", "0.0", "18: motor.leg.resistance_ohm = 0.0: must be greater than 0"),
@@ -208,7 +209,7 @@ fn a_robot_that_is_not_its_own_mirror_image_is_refused() {
 }
 
 #[test]
-fn an_axis_that_no_mirror_can_match_is_refused() {
+fn an_axis_that_cannot_be_symmetric_is_refused() {
     assert_refused(&[mistake(
         "joint.left_ankle_roll",
         "[1, 0, 0]",
@@ -219,7 +220,7 @@ fn an_axis_that_no_mirror_can_match_is_refused() {
 }
 
 #[test]
-fn joints_are_no_faster_than_motors_and_the_right_ankle_stands_over_o() {
+fn joints_faster_than_their_motors_and_a_misplaced_ankle_are_refused() {
     assert_refused(&[
         mistake(
             "joint.foot_pitch",
@@ -250,20 +251,20 @@ fn joints_are_no_faster_than_motors_and_the_right_ankle_stands_over_o() {
 }
 
 #[test]
-fn a_file_that_is_not_there_is_named() {
+fn a_missing_mechanism_file_is_reported_with_its_path() {
     let errors = Mechanism::load("no/such/mechanism.toml").expect_err("there is no such file");
     assert!(errors.to_string().starts_with("no/such/mechanism.toml: cannot be read: "), "{errors}");
 }
 
 #[test]
-fn text_that_is_no_toml_is_refused_with_its_place() {
+fn invalid_toml_is_reported_with_its_place() {
     let errors = Mechanism::from_toml("name = \"x\"\n[sole\nwidth_m = \n", "bad.toml").expect_err("no TOML");
     let places: Vec<_> = errors.0.iter().map(|error| (error.line, error.column)).collect();
     assert_eq!(places, [(2, 6)], "{errors}");
 }
 
 #[test]
-fn the_fingerprint_sees_numbers_and_nothing_else() {
+fn the_fingerprint_depends_on_numbers_only() {
     let text = committed();
     let fingerprint =
         |text: &str| Mechanism::from_toml(text, "x").unwrap_or_else(|errors| panic!("{errors}")).fingerprint;

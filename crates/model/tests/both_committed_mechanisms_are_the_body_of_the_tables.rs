@@ -1,6 +1,7 @@
 //! Goal: both committed mechanism files load and hold the body of de Leva's tables (DESIGN §2).
 //! Method: total mass, standing height and pelvis against numbers added up by hand; both axis readings side by side.
 
+use config::Config;
 use model::{Joint, Mechanism, Mirror, PerJoint, Side};
 use nalgebra::Vector3;
 
@@ -9,7 +10,7 @@ fn committed(file: &str) -> Mechanism {
     Mechanism::load(&path).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-/// Where each joint is when the robot stands straight [m].
+/// Positions of all joints in the world when the robot stands straight (m).
 fn standing(mechanism: &Mechanism) -> PerJoint<Vector3<f64>> {
     let mut positions = PerJoint([Vector3::zeros(); Joint::COUNT]);
     for (joint, link) in mechanism.links.iter() {
@@ -19,14 +20,14 @@ fn standing(mechanism: &Mechanism) -> PerJoint<Vector3<f64>> {
 }
 
 #[test]
-fn the_body_weighs_73_kg() {
+fn the_committed_robot_weighs_73_kg() {
     for file in ["mechanism.toml", "mechanism_other_reading.toml"] {
         assert!((committed(file).mass() - 73.031).abs() < 1e-12, "{file}");
     }
 }
 
 #[test]
-fn it_stands_upright_on_two_level_soles() {
+fn the_robot_at_zero_angles_stands_upright_on_two_level_soles() {
     let mechanism = committed("mechanism.toml");
     let joints = standing(&mechanism);
     // 0.07 ankle + 0.434 shank + 0.422 thigh, then 0.1457 to the waist and 0.36 to the shoulders
@@ -44,7 +45,7 @@ fn it_stands_upright_on_two_level_soles() {
 }
 
 #[test]
-fn standing_straight_it_balances_between_its_feet() {
+fn the_centre_of_mass_at_zero_angles_is_between_the_feet() {
     let mechanism = committed("mechanism.toml");
     let joints = standing(&mechanism);
     let moment: Vector3<f64> =
@@ -56,7 +57,7 @@ fn standing_straight_it_balances_between_its_feet() {
 }
 
 #[test]
-fn the_other_reading_differs_in_the_axes_of_ankles_and_waist_only() {
+fn the_other_reading_of_the_paper_differs_in_the_axes_of_ankles_and_waist_only() {
     use Joint::*;
     let (agreed, other) = (committed("mechanism.toml"), committed("mechanism_other_reading.toml"));
     assert_ne!(agreed.fingerprint, other.fingerprint);
@@ -77,7 +78,7 @@ fn the_other_reading_differs_in_the_axes_of_ankles_and_waist_only() {
 }
 
 #[test]
-fn the_mirror_signs_are_those_of_the_swap() {
+fn the_signs_of_the_mirror_are_those_of_the_papers_support_change() {
     // DESIGN §4.5: pitch exchanges with −, roll and yaw with +; the waist's pitch stays, its roll changes sign.
     use Joint::*;
     let mechanism = committed("mechanism.toml");

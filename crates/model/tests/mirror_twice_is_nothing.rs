@@ -1,6 +1,9 @@
-//! Goal: the swap can be undone (DESIGN §4.5). Method: mirror seeded motions twice, bit for bit; limits are symmetric.
+//! Goal: the mirror at a support change can be undone (DESIGN §4.5).
+//!
+//! Method: mirror seeded motions twice, bit for bit; limits are symmetric.
 
-use model::{Joint, Mechanism, Mirror, Motion, PerJoint};
+use config::Config;
+use model::{Joint, Mechanism, Mirror, Mirrored, Motion, PerJoint};
 
 /// A value per joint that has nothing to do with any other: fractions of multiples of the golden ratio.
 fn scattered(seed: f64) -> PerJoint<f64> {
@@ -15,7 +18,7 @@ fn mechanisms() -> [Mechanism; 2] {
 }
 
 #[test]
-fn a_motion_mirrored_twice_is_the_same_to_the_bit() {
+fn a_motion_mirrored_twice_keeps_its_bits() {
     for mechanism in mechanisms() {
         let mirror = Mirror::new(&mechanism).expect("symmetric");
         for seed in 0..100 {
@@ -29,7 +32,7 @@ fn a_motion_mirrored_twice_is_the_same_to_the_bit() {
 }
 
 #[test]
-fn what_a_joint_may_do_its_partner_may_do_in_the_mirror() {
+fn the_limits_of_a_joint_are_the_mirrored_limits_of_its_partner() {
     for mechanism in mechanisms() {
         let mirror = Mirror::new(&mechanism).expect("symmetric");
         let limit = |pick: fn(&model::JointLimits) -> f64| {

@@ -1,11 +1,11 @@
-//! What happens to the robot while it walks: pushes and sensor faults, from a script.
+//! Disturbances of a run, from a script: pushes and sensor faults.
 //!
 //! ```toml
 //! [[push]]
 //! at_s = 3.0
 //! lasts_s = 0.1
 //! impulse_n_s = [0, 6, 0] # ahead, left, up
-//! link = "trunk"          # which is also what is pushed if nothing is said
+//! link = "trunk"          # the default
 //!
 //! [[sensor_fault]]
 //! at_s = 5.0
@@ -16,28 +16,25 @@
 //! size_deg_per_s = 900
 //! ```
 
-use std::path::Path;
+use config::{Config, Table};
+use model::{Joint, Mechanism, Side};
 
-use model::config::{self, ConfigErrors, Document, Table};
-use model::{Joint, Side};
-
-use crate::robot::TRUNK;
 use crate::{Push, SensedValues, SensorFault, SensorFaultKind, Sensors};
 
-/// All that happens. Empty by default.
+/// The disturbances of a run. None by default.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Disturbances {
-    /// Forces.
+    /// Pushes on links of the robot.
     pub pushes: Vec<Push>,
-    /// Faults; those at the same time act in this order.
+    /// Faults of the sensors; simultaneous ones act in this order.
     pub sensor_faults: Vec<SensorFault>,
 }
 
-/// Latest time of a script [s]; what is later is a mistake of unit.
+/// Latest time in a script (s); a later one is a mistake of unit.
 const TIME_MAX: f64 = 1e6;
-/// Largest component of an impulse [N·s]: it would throw the robot as far as a house.
+/// Largest component of an impulse (N·s), far more than fells any robot; a larger one is a mistake of unit.
 const IMPULSE_MAX: f64 = 1e4;
-/// Every group of sensed values by its name.
+/// The groups of sensed values by their names in a script.
 const VALUES: [(&str, SensedValues); 7] = [
     ("all", SensedValues::All),
     ("angles", SensedValues::Angles(None)),
@@ -48,7 +45,7 @@ const VALUES: [(&str, SensedValues); 7] = [
     ("angular_rate", SensedValues::AngularRate),
 ];
 
-/// What a script can say that a sensor fault is.
+/// The kinds of sensor fault by which a script names them, before their parameters are read.
 #[derive(Clone, Copy)]
 enum Kind {
     Freeze,
@@ -58,28 +55,12 @@ enum Kind {
     Delay,
 }
 
-impl Disturbances {
-    /// Reads a script.
-    ///
-    /// # Errors
-    /// When the file cannot be read, and every key that is unknown, missing or out of range.
-    pub fn load(path: impl AsRef<Path>) -> Result<Self, ConfigErrors> {
-        let path = path.as_ref();
-        Self::from_toml(&config::read(path)?, &path.display().to_string())
-    }
-
-    /// Reads the text of a script; `file` is its name for messages.
-    ///
-    /// # Errors
-    /// Every key that is unknown, missing or out of range.
-    pub fn from_toml(text: &str, file: &str) -> Result<Self, ConfigErrors> {
-        let document = Document::parse(text, file)?;
-        let root = document.root();
-        let disturbances = Self {
+impl Config for Disturbances {
+    fn read(root: &Table) -> Self {
+        Self {
             pushes: root.tables("push").iter().map(push).collect(),
             sensor_faults: root.tables("sensor_fault").iter().filter_map(sensor_fault).collect(),
-        };
-        document.finish(disturbances)
+        }
     }
 }
 
@@ -88,7 +69,11 @@ fn push(table: &Table) -> Push {
     let must = format!("each must lie between -{IMPULSE_MAX} and {IMPULSE_MAX}");
     let in_reach = |impulse: &[f64; 3]| impulse.iter().all(|component| component.abs() <= IMPULSE_MAX);
     Push {
-        link: if table.has("link") { table.choice("link", links()).unwrap_or(TRUNK) } else { TRUNK },
+        link: if table.has("link") {
+            table.choice("link", links()).unwrap_or(Mechanism::TRUNK)
+        } else {
+            Mechanism::TRUNK
+        },
         impulse: table.numbers("impulse_n_s").that(in_reach, &must).into(),
         start: table.number("at_s").between(0.0, TIME_MAX),
         duration: table.duration("lasts_s").as_secs_f64(),
@@ -106,7 +91,7 @@ fn sensor_fault(table: &Table) -> Option<SensorFault> {
     ];
     let kind = table.choice("kind", kinds).and_then(|kind| fault_kind(table, kind));
     if kind.is_none() {
-        // What goes with an unknown kind cannot be judged.
+        // The parameters of an unknown kind cannot be checked: none of them is an unknown key.
         for key in ["values", "joint", "foot", "size_deg", "size_deg_per_s", "size_n", "size_a", "delay_periods"] {
             table.has(key);
         }
@@ -127,7 +112,7 @@ fn fault_kind(table: &Table, kind: Kind) -> Option<SensorFaultKind> {
     })
 }
 
-/// Which values: all of them, unless the script says less.
+/// The values that a fault affects: all of them, unless the script names some.
 fn values(table: &Table) -> Option<SensedValues> {
     let group = if table.has("values") { table.choice("values", VALUES)? } else { SensedValues::All };
     let joint = || {
@@ -147,7 +132,7 @@ fn values(table: &Table) -> Option<SensedValues> {
     })
 }
 
-/// How large a spike is, in the unit of its values.
+/// Size of a spike, in the unit of its values.
 fn size(table: &Table, values: SensedValues) -> f64 {
     match values {
         SensedValues::Angles(_) | SensedValues::Orientation => table.angle("size_deg").any(),

@@ -1,15 +1,15 @@
-//! All outside loads of an integration step, at most one for each link.
+//! The external loads of an integration step, at most one for each link.
 
 use dynamics::{ArticulatedBody, LinkLoad};
 use model::{Joint, Mechanism, Wrench};
 use nalgebra::{Matrix6, Vector3};
 
-/// Loads by link; never full.
+/// External loads, one for each loaded link; never full, since there are as many places as links.
 #[derive(Default)]
 pub(crate) struct Loads(heapless::Vec<LinkLoad, { Joint::COUNT }>);
 
 impl Loads {
-    /// Adds a load to what acts on its link already.
+    /// Adds a load to those on its link.
     pub fn add(&mut self, load: LinkLoad) {
         if let Some(present) = self.0.iter_mut().find(|present| present.link == load.link) {
             present.wrench = present.wrench + load.wrench;
@@ -20,13 +20,13 @@ impl Loads {
         }
     }
 
-    /// Adds a force [N] in world axes at a link's centre of mass.
+    /// Adds a force (N) in world axes at a link's centre of mass.
     pub fn add_force(&mut self, force: Vector3<f64>, link: Joint, mechanism: &Mechanism, body: &ArticulatedBody) {
         let com = body.kinematics.origin[link] + body.kinematics.rotation[link] * mechanism.links[link].body.com;
         self.add(LinkLoad { link, wrench: Wrench::at_point(force, com), added_inertia: Matrix6::zeros() });
     }
 
-    /// All of them.
+    /// All loads.
     pub fn as_slice(&self) -> &[LinkLoad] {
         &self.0
     }

@@ -1,14 +1,14 @@
-//! Masses that nobody knows exactly.
+//! Errors of mass: the links of the plant weigh something else than those of the controller's model.
 
 use model::{Body, Mechanism};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Apart from the sensors' stream: a mass error leaves their noise as it is.
+/// Number of the random stream: another one than the sensors', so that an error of mass leaves their noise as it is.
 const STREAM: u64 = 1;
 
-/// The mechanism with every link's mass, and apart from it its inertia, wrong by a share drawn evenly from ±`error`, each
-/// link by itself. The same seed draws the same; no error changes nothing.
+/// The mechanism with every link's mass, and independently its inertia, wrong by a share drawn evenly from ±`error`.
+/// The same seed draws the same shares; with an error of 0 nothing changes.
 pub fn with_mass_error(mechanism: &Mechanism, error: f64, seed: u64) -> Mechanism {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(STREAM);
@@ -23,6 +23,7 @@ pub fn with_mass_error(mechanism: &Mechanism, error: f64, seed: u64) -> Mechanis
 
 #[cfg(test)]
 mod tests {
+    use config::Config;
     use model::Joint;
 
     use super::*;
@@ -33,7 +34,7 @@ mod tests {
     }
 
     #[test]
-    fn the_seed_decides_and_zero_is_exact() {
+    fn mass_errors_depend_on_the_seed_alone_and_an_error_of_zero_changes_nothing() {
         let mechanism = mechanism();
         assert_eq!(with_mass_error(&mechanism, 0.0, 3), mechanism);
         assert_eq!(with_mass_error(&mechanism, 0.05, 3), with_mass_error(&mechanism, 0.05, 3));
@@ -42,7 +43,7 @@ mod tests {
 
     /// Shares stay within the error, fill it, are one for all three moments of a link, and right is not left.
     #[test]
-    fn each_link_errs_by_itself() {
+    fn mass_errors_of_links_are_independent_and_fill_their_range() {
         let mechanism = mechanism();
         let mut shares = Vec::new();
         for seed in 0..50 {

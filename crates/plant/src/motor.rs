@@ -1,28 +1,47 @@
-//! DC motors and their drives: a position servo that commands a voltage, and what the motor makes of it.
+//! DC motors and their drives: a position servo that commands a voltage, and the torque of the motor at that voltage.
 
+use config::Table;
+use interface::Setpoint;
 use model::{Joint, JointVector, Mechanism, Motor, PerJoint};
 
-use crate::{ServoParameters, Setpoint};
+/// A drive's position servo, seen at the joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ServoParameters {
+    /// Torque per deviation of the angle (N·m/rad).
+    pub stiffness: f64,
+    /// Torque per deviation of the rate (N·m·s/rad).
+    pub damping: f64,
+}
 
-/// All drives.
+/// The drives of all joints.
 #[derive(Clone, Debug)]
 pub struct Drive {
     motors: PerJoint<Option<Motor>>,
     servo: PerJoint<ServoParameters>,
-    /// Rotors as the joints feel them [kg·m²].
+    /// Reflected inertias of the rotors at the joints (kg·m²).
     rotors: JointVector,
 }
 
-/// What the drives do over the coming integration step.
+/// Torques of the drives at the end of an integration step, linear in the joint accelerations over the step.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DriveTorque {
-    /// Joint torques if nothing accelerated [N·m].
+    /// Joint torques at zero acceleration (N·m).
     pub torques: JointVector,
-    /// How much a torque lessens per joint acceleration: rotor, and the servo's or the back-EMF's answer over the step
-    /// [kg·m²].
+    /// Decrease of the joint torque per joint acceleration (kg·m²): by the rotor's inertia, and by the servo's or the
+    /// back-EMF's response over the step.
     pub armature: JointVector,
-    /// Which part of `armature` acts through the motor's current [kg·m²].
+    /// The part of `armature` that acts through the motor's current (kg·m²).
     pub electrical: JointVector,
+}
+
+impl ServoParameters {
+    /// Reads a table of `[servo]`.
+    pub(crate) fn read(table: &Table) -> Self {
+        Self {
+            stiffness: table.number("stiffness_n_m_per_rad").not_negative(),
+            damping: table.number("damping_n_m_s_per_rad").not_negative(),
+        }
+    }
 }
 
 impl Drive {
@@ -33,8 +52,9 @@ impl Drive {
         Self { motors, servo: *servo, rotors }
     }
 
-    /// The torques towards a setpoint that is to be reached at `lead` seconds from the end of this step.
-    pub fn press(
+    /// The torques towards a setpoint that is to be reached `lead` seconds after the end of this step. Angles (rad) and
+    /// rates (rad/s) are those at its beginning, `step` is its length (s).
+    pub fn torques_at_step_end(
         &self,
         setpoint: &Setpoint,
         lead: f64,
@@ -48,16 +68,16 @@ impl Drive {
             let servo = &self.servo[joint];
             let target = setpoint.angles[joint] - lead * setpoint.rates[joint];
             let rate = rates[joint];
-            let wanted = servo.stiffness * (target - angles[joint] - step * rate)
+            let desired = servo.stiffness * (target - angles[joint] - step * rate)
                 + servo.damping * (setpoint.rates[joint] - rate)
                 + setpoint.feed_forward[joint];
 
             // The drive compensates the back-EMF as far as its voltage goes.
             let back_emf_torque = motor.back_emf_damping() * rate;
             let torque_max = motor.torque_per_volt() * motor.voltage_max;
-            let driven = wanted + back_emf_torque;
+            let driven = desired + back_emf_torque;
             let (torque, electrical) = if driven.abs() <= torque_max {
-                (wanted, step * servo.damping + step * step * servo.stiffness)
+                (desired, step * servo.damping + step * step * servo.stiffness)
             } else {
                 (torque_max.copysign(driven) - back_emf_torque, step * motor.back_emf_damping())
             };
@@ -68,7 +88,7 @@ impl Drive {
         drive
     }
 
-    /// Currents [A] of the torques that acted [N·m].
+    /// Motor currents (A) that yield these motor torques at the joints (N·m).
     pub fn currents(&self, torques: &JointVector) -> JointVector {
         PerJoint::from_fn(|joint| {
             self.motors[joint].map_or(0.0, |motor| torques[joint] / (motor.gear_ratio * motor.torque_constant))
@@ -77,8 +97,8 @@ impl Drive {
 }
 
 impl DriveTorque {
-    /// The motor torques that acted over the step, now that the accelerations are known [N·m].
-    pub fn acted(&self, accelerations: &JointVector) -> JointVector {
+    /// The motor torques over the step (N·m), once the joint accelerations are known (rad/s²).
+    pub fn resolve(&self, accelerations: &JointVector) -> JointVector {
         PerJoint::from_fn(|joint| self.torques[joint] - self.electrical[joint] * accelerations[joint])
     }
 }

@@ -1,31 +1,36 @@
-//! A mass that the robot carries and its controller knows nothing of.
+//! A mass that the robot carries, unknown to the controller.
 
+use config::Table;
 use dynamics::{ArticulatedBody, LinkLoad};
-use model::Wrench;
+use model::{Mechanism, Wrench};
 use nalgebra::Vector3;
 
 use crate::contact::point_inertia;
-use crate::robot::TRUNK;
 
-/// A point mass fixed to the trunk; none by default.
+/// A point mass fixed to the trunk; none by default. Table `[payload]` of `config/plant.toml`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Payload {
-    /// [kg]
+    /// Mass of the payload (kg).
     pub mass: f64,
-    /// In the trunk's frame, whose origin is the waist joint [m].
+    /// Position of the payload in the trunk's frame, whose origin is the waist joint (m).
     pub at: Vector3<f64>,
 }
 
 impl Payload {
-    /// What it does to the trunk: gravity and inertia of a point, `m·(g − a)`.
+    /// Reads the table `[payload]`.
+    pub(crate) fn read(table: &Table) -> Self {
+        Self { mass: table.number("mass_kg").not_negative(), at: table.numbers("at_m").any().into() }
+    }
+
+    /// The load on the trunk: gravity and inertia of a point, `m·(g − a)`.
     pub(crate) fn load(&self, body: &ArticulatedBody) -> LinkLoad {
-        let point = body.kinematics.origin[TRUNK] + body.kinematics.rotation[TRUNK] * self.at;
-        let angular = body.velocity[TRUNK].fixed_rows::<3>(0).into_owned();
-        let linear = body.velocity[TRUNK].fixed_rows::<3>(3).into_owned();
-        // What the point accelerates by when the trunk's spatial acceleration is zero.
+        let point = body.kinematics.origin[Mechanism::TRUNK] + body.kinematics.rotation[Mechanism::TRUNK] * self.at;
+        let angular = body.velocity[Mechanism::TRUNK].fixed_rows::<3>(0).into_owned();
+        let linear = body.velocity[Mechanism::TRUNK].fixed_rows::<3>(3).into_owned();
+        // Acceleration of the point at zero spatial acceleration of the trunk.
         let centripetal = angular.cross(&(linear + angular.cross(&point)));
         LinkLoad {
-            link: TRUNK,
+            link: Mechanism::TRUNK,
             wrench: Wrench::at_point((body.gravity - centripetal) * self.mass, point),
             added_inertia: point_inertia(point, Vector3::repeat(self.mass)),
         }

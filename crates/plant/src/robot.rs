@@ -4,26 +4,23 @@ use dynamics::{Accelerations, Kinematics, Tree};
 use model::{Joint, JointVector, Mechanism, Motion, Side};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-/// The link with the inertial measurement unit; it also carries the payload.
-pub(crate) const TRUNK: Joint = Joint::WaistRoll;
-
-/// Where the robot is and how it moves. The base is the right sole.
+/// Pose and velocity of the floating robot. The base is the right sole.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotState {
-    /// Maps right-sole coordinates to world coordinates.
+    /// Pose of the right sole: maps sole coordinates to world coordinates.
     pub sole_to_world: Isometry3<f64>,
-    /// Of the right foot, in world axes [rad/s].
+    /// Angular rate of the right foot, in world axes (rad/s).
     pub angular_rate: Vector3<f64>,
-    /// Of the right sole's origin, in world axes [m/s].
+    /// Velocity of the right sole's origin, in world axes (m/s).
     pub velocity: Vector3<f64>,
-    /// [rad]; the unpowered two stay zero: the base pose says what they would.
+    /// Joint angles (rad); those of the two unpowered joints stay zero, since the base pose takes their place.
     pub angles: JointVector,
-    /// [rad/s]
+    /// Joint rates (rad/s); those of the two unpowered joints stay zero.
     pub rates: JointVector,
 }
 
 impl RobotState {
-    /// In a posture and moving with its rates, the right sole flat and at rest at the given height [m] over O.
+    /// The state of a motion with the right sole flat and at rest, at a height over O (m).
     pub fn on_right_foot(motion: &Motion, height: f64) -> Self {
         Self {
             sole_to_world: Isometry3::translation(0.0, 0.0, height),
@@ -34,33 +31,33 @@ impl RobotState {
         }
     }
 
-    /// Moves on by `step` [s]: rates first, then angles with the new rates (semi-implicit Euler).
+    /// Advances by `step` (s): rates first, then angles with the new rates (semi-implicit Euler).
     pub fn integrate(&mut self, accelerations: &Accelerations, step: f64) {
         self.rates += accelerations.joints * step;
         self.angles += self.rates * step;
         self.angular_rate += accelerations.base_angular * step;
         self.velocity += accelerations.base_linear * step;
-        let turn = UnitQuaternion::from_scaled_axis(self.angular_rate * step);
+        let rotation = UnitQuaternion::from_scaled_axis(self.angular_rate * step);
         self.sole_to_world = Isometry3::from_parts(
             Translation3::from(self.sole_to_world.translation.vector + self.velocity * step),
-            UnitQuaternion::new_normalize((turn * self.sole_to_world.rotation).into_inner()),
+            UnitQuaternion::new_normalize((rotation * self.sole_to_world.rotation).into_inner()),
         );
     }
 
-    /// Poses of all links in the world.
+    /// The poses of all links in the world.
     pub fn kinematics(&self, tree: &Tree) -> Kinematics {
         let mut kinematics = Kinematics::default();
-        kinematics.float(tree, &self.sole_to_world, &self.angles);
+        kinematics.compute_floating_base(tree, &self.sole_to_world, &self.angles);
         kinematics
     }
 
-    /// Pose of a sole in the world.
+    /// Pose of a sole: maps sole coordinates to world coordinates.
     pub fn sole(&self, tree: &Tree, mechanism: &Mechanism, side: Side) -> Isometry3<f64> {
         self.kinematics(tree).sole_to_world(mechanism, side)
     }
 
-    /// Angular rate of a link [rad/s], and velocity of a `point` of the world that moves with it [m/s], in world axes;
-    /// `kinematics` as now.
+    /// Angular rate of a link (rad/s), and velocity of a point that moves with it and is now at
+    /// `point` of the world (m/s), in world axes; `kinematics` are those of this state.
     pub fn link_velocity(
         &self,
         mechanism: &Mechanism,
@@ -80,7 +77,7 @@ impl RobotState {
         (rate, velocity)
     }
 
-    /// Centre of mass of the links in the world [m] and its velocity [m/s]; `kinematics` as now.
+    /// Centre of mass of the links in the world (m) and its velocity (m/s); `kinematics` are those of this state.
     pub fn com(&self, tree: &Tree, kinematics: &Kinematics) -> (Vector3<f64>, Vector3<f64>) {
         let com = kinematics.com(tree);
         let (against_sole, _) = kinematics.com_velocity(tree, &self.rates);
@@ -88,7 +85,7 @@ impl RobotState {
         (com, self.velocity + self.angular_rate.cross(&arm) + against_sole)
     }
 
-    /// Whether every number is finite.
+    /// Whether every number of the state is finite.
     pub fn is_finite(&self) -> bool {
         let base = self.sole_to_world.translation.vector + self.angular_rate + self.velocity;
         base.iter().all(|value| value.is_finite()) && self.angles.is_finite() && self.rates.is_finite()

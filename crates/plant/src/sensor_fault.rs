@@ -1,66 +1,68 @@
-//! Sensors that fail: faults injected between the sensors and the controller.
+//! Sensor faults, injected between the sensors and the controller.
 //!
-//! They act on what arrives, after noise and delay, and draw nothing: whatever they do not touch keeps its bits.
+//! They act on samples after noise and delay, and draw no random numbers: the values that they do not affect keep their
+//! bits.
 
+use interface::Measurement;
 use model::{Joint, JointVector, PerJoint, Side, Wrench};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use crate::{Measurement, Sensors};
+use crate::Sensors;
 
-/// What goes wrong with the sensors, and when.
+/// A fault of the sensors, and when it is active.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SensorFault {
-    /// Since the plant's start, rounded to control periods [s].
+    /// Start of the fault since the plant's start, rounded to control periods (s).
     pub start: f64,
-    /// Rounded to control periods, at least one [s].
+    /// Duration of the fault, rounded to control periods, at least one (s).
     pub duration: f64,
-    /// What goes wrong.
+    /// The kind of fault.
     pub kind: SensorFaultKind,
 }
 
-/// What goes wrong.
+/// A kind of sensor fault, with the values that it affects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SensorFaultKind {
-    /// Values stay as they were; samples go on being counted.
+    /// Values stay as they were; sample numbers keep counting.
     Freeze(SensedValues),
-    /// Values are NaN.
+    /// Values become NaN.
     NotANumber(SensedValues),
-    /// Values are off by `size` [rad, rad/s, N or A, as they are]. Of feet the vertical force is; the orientation is
-    /// turned about the trunk's x axis.
+    /// Values are off by `size`, in their own unit (rad, rad/s, N, A): of feet the vertical force, of the orientation
+    /// the rotation about the trunk's x axis.
     Spike {
-        /// Which ones.
+        /// The values that are off.
         values: SensedValues,
-        /// By how much.
+        /// How much they are off (rad, rad/s, N, A).
         size: f64,
     },
-    /// No new sample arrives: the last one stays, with its number.
+    /// No new sample arrives: the last one is repeated, with its number.
     DropOut,
-    /// Samples arrive so many control periods later than usual, 1 to [`Sensors::DELAY_MAX`], in order: first none for as
-    /// long, then late ones, in the end all that were underway at once.
+    /// Samples arrive this many control periods later than usual, 1 to [`Sensors::DELAY_MAX`], in order: at first none
+    /// arrives, then late ones, and after the fault all that are underway arrive at once.
     Delay(u32),
 }
 
-/// Some of a measurement's values.
+/// A group of a measurement's values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SensedValues {
-    /// Every one.
+    /// All values.
     All,
-    /// Of one joint, or of all.
+    /// The angle of one joint, or of all.
     Angles(Option<Joint>),
-    /// Of one joint, or of all.
+    /// The rate of one joint, or of all.
     Rates(Option<Joint>),
-    /// Of one joint, or of all.
+    /// The motor current of one joint, or of all.
     Currents(Option<Joint>),
     /// Force and moment on one foot, or on both.
     Feet(Option<Side>),
-    /// Of the trunk.
+    /// Orientation of the trunk.
     Orientation,
-    /// Of the trunk.
+    /// Angular rate of the trunk.
     AngularRate,
 }
 
 impl SensorFault {
-    /// Whether it is there in a control period of a length [s].
+    /// Whether the fault is active in control period `tick`; `period` is its length (s).
     fn is_active(&self, tick: u64, period: f64) -> bool {
         let periods = |time: f64| (time / period).round() as u64;
         let first = periods(self.start);
@@ -68,22 +70,23 @@ impl SensorFault {
     }
 }
 
-/// What arrives at the controller.
+/// Applies the active faults to the samples on their way to the controller.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Arrival {
-    /// What the sensors sent, oldest first.
+pub(crate) struct FaultInjector {
+    /// The last samples of the sensors, oldest first.
     sent: heapless::Deque<Measurement, { Sensors::DELAY_MAX + 1 }>,
-    /// What arrived last.
+    /// The sample that arrived last.
     last: Option<Measurement>,
 }
 
-impl Arrival {
-    /// What arrives of the sample that the sensors send in its control period.
+impl FaultInjector {
+    /// The sample that arrives at the controller in the control period in which the sensors send `sent`; `period` is
+    /// its length (s).
     pub fn receive(&mut self, sent: Measurement, faults: &[SensorFault], period: f64) -> Measurement {
         if self.sent.is_full() {
             self.sent.pop_front();
         }
-        // There is a place now.
+        // There is room now.
         let _ = self.sent.push_back(sent);
         let active = || faults.iter().filter(|fault| fault.is_active(sent.sample, period)).map(|fault| fault.kind);
 
@@ -117,7 +120,7 @@ impl Arrival {
 }
 
 impl SensedValues {
-    /// Replaces these values of a sample by another one's.
+    /// Replaces these values of a sample by those of another one.
     fn take(self, sample: &mut Measurement, other: &Measurement) {
         fn of_joints(joint: Option<Joint>, values: &mut JointVector, other: &JointVector) {
             match joint {
@@ -138,7 +141,7 @@ impl SensedValues {
     }
 }
 
-/// A measurement with nothing in it.
+/// A measurement whose values are all NaN.
 fn not_a_number() -> Measurement {
     let joints = PerJoint([f64::NAN; Joint::COUNT]);
     let vector = Vector3::repeat(f64::NAN);
@@ -147,13 +150,13 @@ fn not_a_number() -> Measurement {
         angles: joints,
         rates: joints,
         feet: [Wrench { force: vector, moment: vector }; 2],
-        orientation: UnitQuaternion::new_unchecked(Quaternion::from_parts(f64::NAN, vector)),
+        orientation: Quaternion::from_parts(f64::NAN, vector),
         angular_rate: vector,
         currents: joints,
     }
 }
 
-/// A measurement of which everything is off by `size`.
+/// A measurement whose values are all off by `size`, in their own units.
 fn displaced(sample: &Measurement, size: f64) -> Measurement {
     let joints = |values: &JointVector| PerJoint(values.0.map(|value| value + size));
     Measurement {
@@ -161,7 +164,7 @@ fn displaced(sample: &Measurement, size: f64) -> Measurement {
         angles: joints(&sample.angles),
         rates: joints(&sample.rates),
         feet: sample.feet.map(|foot| Wrench { force: foot.force + Vector3::z() * size, ..foot }),
-        orientation: sample.orientation * UnitQuaternion::from_scaled_axis(Vector3::x() * size),
+        orientation: sample.orientation * UnitQuaternion::from_scaled_axis(Vector3::x() * size).into_inner(),
         angular_rate: sample.angular_rate.add_scalar(size),
         currents: joints(&sample.currents),
     }

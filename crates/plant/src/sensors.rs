@@ -1,34 +1,35 @@
-//! The sensors: what of the truth reaches the controller, how late and how noisy.
+//! The sensors: delay, resolution and noise between the true state and the measurement.
 
+use config::Table;
+use interface::Measurement;
 use model::{JointVector, PerJoint, Wrench};
 use nalgebra::{UnitQuaternion, Vector3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::SensorParameters;
-
-/// What the robot senses in one control period.
+/// How the sensors err. Standard deviations of white noise per sample; all zero for perfect sensors.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measurement {
-    /// Which sample it is: the control period since the plant's start in which it should arrive. The same number again
-    /// is the same sample again.
-    pub sample: u64,
-    /// Joint angles [rad]; the first two are the tilt of the bearing sole.
-    pub angles: JointVector,
-    /// [rad/s]; the first two are not sensed and zero.
-    pub rates: JointVector,
-    /// Of the ground on the right and on the left foot, about the sole's origin in sole axes.
-    pub feet: [Wrench; 2],
-    /// Of the trunk: maps trunk coordinates to level axes, whose z is the true vertical; world axes on a level floor.
-    pub orientation: UnitQuaternion<f64>,
-    /// Of the trunk, in its own axes [rad/s].
-    pub angular_rate: Vector3<f64>,
-    /// [A]
-    pub currents: JointVector,
+pub struct SensorParameters {
+    /// Delay of the samples (control periods), 0 to [`Sensors::DELAY_MAX`].
+    pub delay_periods: u32,
+    /// Resolution of the joint encoders (rad); 0 for continuous angles.
+    pub angle_resolution: f64,
+    /// Noise of the joint rates (rad/s).
+    pub rate_noise: f64,
+    /// Noise of each component of the forces on the feet (N).
+    pub force_noise: f64,
+    /// Noise of each component of the moments on the feet (N·m).
+    pub moment_noise: f64,
+    /// Noise of the trunk's orientation about each of its axes (rad).
+    pub orientation_noise: f64,
+    /// Noise of the trunk's angular rate about each of its axes (rad/s).
+    pub angular_rate_noise: f64,
+    /// Noise of the motor currents (A).
+    pub current_noise: f64,
 }
 
-/// All sensors, with a seed: the same seed makes the same errors.
+/// All sensors. The same seed yields the same noise.
 #[derive(Clone, Debug)]
 pub struct Sensors {
     parameters: SensorParameters,
@@ -37,17 +38,45 @@ pub struct Sensors {
     underway: heapless::Deque<Measurement, { Sensors::DELAY_MAX + 1 }>,
 }
 
+impl SensorParameters {
+    /// Sensors without delay, rounding or noise.
+    pub const PERFECT: SensorParameters = SensorParameters {
+        delay_periods: 0,
+        angle_resolution: 0.0,
+        rate_noise: 0.0,
+        force_noise: 0.0,
+        moment_noise: 0.0,
+        orientation_noise: 0.0,
+        angular_rate_noise: 0.0,
+        current_noise: 0.0,
+    };
+
+    /// Reads the table `[sensors]`.
+    pub(crate) fn read(table: &Table) -> Self {
+        Self {
+            delay_periods: table.integer("delay_periods", 0, Sensors::DELAY_MAX as u64) as u32,
+            angle_resolution: table.angle("angle_resolution_deg").not_negative(),
+            rate_noise: table.angle("rate_noise_deg_per_s").not_negative(),
+            force_noise: table.number("force_noise_n").not_negative(),
+            moment_noise: table.number("moment_noise_n_m").not_negative(),
+            orientation_noise: table.angle("orientation_noise_deg").not_negative(),
+            angular_rate_noise: table.angle("angular_rate_noise_deg_per_s").not_negative(),
+            current_noise: table.number("current_noise_a").not_negative(),
+        }
+    }
+}
+
 impl Sensors {
-    /// Longest delay [control periods].
+    /// Longest delay (control periods).
     pub const DELAY_MAX: usize = 31;
 
-    /// Sensors with these imperfections.
+    /// Sensors with these errors.
     pub fn new(parameters: SensorParameters, seed: u64) -> Self {
         Self { parameters, noise: ChaCha8Rng::seed_from_u64(seed), underway: heapless::Deque::new() }
     }
 
-    /// Absorbs the truth of this period and gives what arrives in it. Before the first sample has made its way, that
-    /// first sample is what there is.
+    /// Takes the true values of this control period, and returns the sample that arrives in it. Until the first sample
+    /// has arrived, that sample is returned.
     pub fn sense(&mut self, truth: &Measurement) -> Measurement {
         let number = truth.sample;
         let sample = self.disturbed(truth);
@@ -73,7 +102,7 @@ impl Sensors {
                 moment: foot.moment + self.vector(parameters.moment_noise),
             }),
             orientation: truth.orientation
-                * UnitQuaternion::from_scaled_axis(self.vector(parameters.orientation_noise)),
+                * UnitQuaternion::from_scaled_axis(self.vector(parameters.orientation_noise)).into_inner(),
             angular_rate: truth.angular_rate + self.vector(parameters.angular_rate_noise),
             currents: self.noisy_joints(&truth.currents, parameters.current_noise),
         }

@@ -1,29 +1,29 @@
-//! A floor that is not even: square tiles, each at its own height.
+//! An uneven floor: square tiles, each at its own height.
 
+use config::Table;
 use nalgebra::Vector2;
 
-/// How uneven the floor is. Around the world's origin, where the walk begins, it is even.
+use crate::robot_sized::EVEN_HALF_EDGE;
+
+/// Unevenness of the floor; table `[unevenness]` of `config/plant.toml`. Around the world's origin, where the walk
+/// begins, the floor is even.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unevenness {
-    /// Tiles lie by at most this much higher or lower than the plane z = 0 [m].
+    /// Greatest height or depth of a tile against the plane z = 0 (m).
     pub height: f64,
-    /// Edge of a tile [m].
+    /// Length of a tile's edge (m).
     pub tile: f64,
 }
 
-/// Half the edge of the square that is even [m].
-const EVEN: f64 = 0.5;
-
-impl Default for Unevenness {
-    fn default() -> Self {
-        Self { height: 0.0, tile: 0.3 }
-    }
-}
-
 impl Unevenness {
-    /// Height of the floor at a place [m]; every seed has its own tiles.
+    /// Reads the table `[unevenness]`.
+    pub(crate) fn read(table: &Table) -> Self {
+        Self { height: table.number("height_m").not_negative(), tile: table.number("tile_m").positive() }
+    }
+
+    /// Height of the floor at a place in the world (m); every seed has its own tiles.
     pub fn at(&self, place: Vector2<f64>, seed: u64) -> f64 {
-        if self.height == 0.0 || place.amax() < EVEN {
+        if self.height == 0.0 || place.amax() < EVEN_HALF_EDGE {
             return 0.0;
         }
         let [column, row] = [place.x, place.y].map(|coordinate| (coordinate / self.tile).floor() as i64 as u64);
@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tiles_lie_within_their_bound_on_both_sides_of_the_plane_and_are_level() {
+    fn tiles_of_an_uneven_floor_are_level_and_fill_their_range() {
         let floor = Unevenness { height: 0.01, tile: 0.2 };
         let middle = |index: i32| Vector2::new(1.1 + 0.2 * f64::from(index % 80), 0.1 + 0.2 * f64::from(index / 80));
         let middles = (0..4000).map(middle);

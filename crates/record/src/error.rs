@@ -3,76 +3,84 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why a recording could not be written or read. That its end is missing is no error: see
+/// Why a recording could not be written or read. A missing end is not an error: see
 /// [`Recording::cut`](crate::Recording::cut).
 #[derive(Debug, thiserror::Error)]
 pub enum RecordError {
-    /// The operating system says no.
+    /// The operating system refused.
     #[error("{file}: {source}", file = file.display())]
     Io {
-        /// The file.
+        /// Path of the file.
         file: PathBuf,
-        /// What the system says.
+        /// The reason given by the system.
         source: io::Error,
     },
     /// The file cannot be written any further.
     #[error("{file}: cannot record: {cause}", file = file.display())]
     Unwritable {
-        /// The file.
+        /// Path of the file.
         file: PathBuf,
-        /// What MCAP's writer says.
+        /// The reason given by the MCAP writer.
         cause: String,
     },
-    /// The file is something else.
+    /// The file is not an MCAP file.
     #[error("{file}: not an MCAP file", file = file.display())]
     NotMcap {
-        /// The file.
+        /// Path of the file.
         file: PathBuf,
     },
-    /// A folder without a recording.
-    #[error("{folder}: holds no recording; it must hold {names}, as `halfstep walk --out` writes them", folder = folder.display())]
+    /// The folder holds no recording.
+    #[error(
+        "{folder}: holds no recording; it must hold {names}, as `halfstep walk --out` writes them",
+        folder = folder.display()
+    )]
     Nothing {
-        /// The folder.
+        /// Path of the folder.
         folder: PathBuf,
-        /// What would be read.
+        /// Names of the files that would be read.
         names: String,
     },
-    /// A recording of another version of Halfstep, or somebody else's.
+    /// The recording was written by another version of Halfstep, or by another program.
     #[error(
-        "{file}: {topic} was written by another version: its messages are `{found}`, those of this version `{expected}`",
+        "{file}: {topic} was written by another version: its messages are `{found}`, \
+         those of this version `{expected}`",
         file = file.display()
     )]
     OtherVersion {
-        /// The file.
+        /// Path of the file.
         file: PathBuf,
-        /// Of the messages.
+        /// Topic of the messages.
         topic: String,
-        /// What they are according to the file, as one line.
+        /// Type of the messages according to the file, in one line.
         found: String,
-        /// What they must be.
+        /// Type that the messages must have.
         expected: String,
     },
     /// A message has too few or too many bytes.
-    #[error("{file}: message {number} of {topic} has {size} bytes, which its schema does not allow", file = file.display())]
+    #[error(
+        "{file}: message {number} of {topic} has {size} bytes, which its schema does not allow",
+        file = file.display()
+    )]
     WrongSize {
-        /// The file.
+        /// Path of the file.
         file: PathBuf,
-        /// Of the message.
+        /// Topic of the message.
         topic: String,
-        /// Its number.
+        /// Number of the message, MCAP's `sequence`.
         number: u32,
-        /// [bytes]
+        /// Size of the message (bytes).
         size: usize,
     },
 }
 
 impl RecordError {
+    /// An error of the operating system for a file.
     pub(crate) fn io(file: &Path) -> impl Fn(io::Error) -> Self {
         let file = file.to_owned();
         move |source| RecordError::Io { file: file.clone(), source }
     }
 
-    /// What MCAP's writer says, about a file.
+    /// An error of the MCAP writer for a file.
     pub(crate) fn unwritable(file: &Path, cause: mcap::McapError) -> Self {
         match cause {
             mcap::McapError::Io(source) => RecordError::Io { file: file.to_owned(), source },

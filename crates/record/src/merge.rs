@@ -1,54 +1,56 @@
-//! Making one recording of several.
+//! Merging several recordings into one.
 
 use std::path::Path;
 
-use crate::{Item, Note, Origin, RecordError, Recording, RecordingWriter, Stamped};
+use crate::{Item, Metadata, Provenance, RecordError, Recording, RecordingWriter, TimedEvent};
 
-/// A recording of which the next event is known.
-struct Part {
+/// A recording whose next event has been read already.
+struct PeekedRecording {
+    /// The recording, read up to the next event.
     recording: Recording,
-    next: Option<Stamped>,
-    /// Notes met on the way there.
-    notes: Vec<Note>,
+    /// The next event; `None` at the end.
+    next: Option<TimedEvent>,
+    /// Metadata read on the way to the next event.
+    metadata: Vec<Metadata>,
 }
 
-/// Writes one recording of all that stands in `parts`, in order of time; of the same time the first part's comes first. Of
-/// attachments with the same name the first is taken. Parts that were cut off are taken as far as they are whole.
+/// Writes one recording with everything in `parts`, in order of time; for equal times, in the order of the parts. Of
+/// attachments with the same name the first is taken. Truncated parts are taken as far as they are valid.
 ///
 /// # Errors
-/// A part cannot be read, or `whole` not be written.
+/// A part cannot be read, or `whole` cannot be written.
 pub fn merge<P: AsRef<Path>>(parts: &[P], whole: &Path) -> Result<(), RecordError> {
-    let mut origin = Origin::default();
+    let mut provenance = Provenance::default();
     let mut open = Vec::new();
     for part in parts {
-        let mut part = Part { recording: Recording::open(part.as_ref())?, next: None, notes: Vec::new() };
-        part.advance(&mut origin)?;
-        origin.notes.append(&mut part.notes);
+        let mut part = PeekedRecording { recording: Recording::open(part.as_ref())?, next: None, metadata: Vec::new() };
+        part.advance(&mut provenance)?;
+        provenance.metadata.append(&mut part.metadata);
         open.push(part);
     }
-    let mut writer = RecordingWriter::create(whole, &origin)?;
-    let time = |part: &&mut Part| part.next.map(|next| next.time_ns);
+    let mut writer = RecordingWriter::create(whole, &provenance)?;
+    let time = |part: &&mut PeekedRecording| part.next.map(|next| next.time_ns);
     while let Some(first) = open.iter_mut().filter(|part| part.next.is_some()).min_by_key(time) {
-        if let Some(Stamped { time_ns, number, event }) = first.next {
+        if let Some(TimedEvent { time_ns, number, event }) = first.next {
             writer.write(time_ns, number, &event)?;
         }
-        // What follows events are notes of how it ended.
-        first.advance(&mut Origin::default())?;
-        for note in first.notes.drain(..) {
-            writer.note(&note)?;
+        // Metadata after events describes how the run ended.
+        first.advance(&mut Provenance::default())?;
+        for metadata in first.metadata.drain(..) {
+            writer.write_metadata(&metadata)?;
         }
     }
     writer.finish()
 }
 
-impl Part {
-    /// Goes on to the next event.
-    fn advance(&mut self, origin: &mut Origin) -> Result<(), RecordError> {
+impl PeekedRecording {
+    /// Reads on to the next event.
+    fn advance(&mut self, provenance: &mut Provenance) -> Result<(), RecordError> {
         self.next = loop {
             match self.recording.next_item()? {
                 Some(Item::Event(event)) => break Some(*event),
-                Some(Item::Note(note)) => self.notes.push(note),
-                Some(Item::File(name, text)) => origin.attach(name, text),
+                Some(Item::Metadata(metadata)) => self.metadata.push(metadata),
+                Some(Item::File(name, text)) => provenance.attach(name, text),
                 None => break None,
             }
         };

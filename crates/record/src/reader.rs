@@ -1,4 +1,4 @@
-//! Reading a recording, from its beginning to where it ends or was cut off.
+//! Reading a recording, from its beginning to its end or to where it is truncated.
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -10,70 +10,73 @@ use mcap::records::Record;
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
 
 use crate::schema::{self, HEAD, MESSAGE_ENCODING, SCHEMA_ENCODING};
-use crate::{CONTROLLER_FILE, Channel, Event, Note, Origin, PLANT_FILE, RUN_FILE, RecordError};
+use crate::{CONTROLLER_FILE, Channel, Metadata, PLANT_FILE, Provenance, RUN_FILE, RecordError, RunEvent};
 
-/// No record of ours is as long; a damaged file may claim it [bytes].
+/// Longest record that is read (bytes): ours are shorter, a damaged file may claim more.
 const RECORD_MAX: usize = 1 << 30;
 
-/// A recording that is being read. Other recordings' channels in it are passed over.
+/// A recording while it is read. Channels of other programs are skipped.
 pub struct Recording {
+    /// Path of the file, for messages.
     path: PathBuf,
     file: BufReader<File>,
     reader: LinearReader,
-    /// Of MCAP's schemas: encoding and text.
+    /// Encoding and text of the schemas, by MCAP's numbers.
     schemas: HashMap<u16, (String, String)>,
-    /// By MCAP's numbers.
+    /// The channels, by MCAP's numbers.
     channels: HashMap<u16, Channel>,
+    /// Whether the end of the file has been read.
     is_whole: bool,
+    /// Why the end of the file is missing.
     damage: Option<String>,
-    /// Until when it was read [ns].
+    /// Time of the last event that was read (ns).
     time_ns: u64,
 }
 
-/// What stands in a recording.
+/// A part of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Item {
-    /// An event.
-    Event(Box<Stamped>),
-    /// Words.
-    Note(Note),
-    /// Name and text of a file.
+    /// An event of the run.
+    Event(Box<TimedEvent>),
+    /// A set of keys and values.
+    Metadata(Metadata),
+    /// Name and text of an attached file.
     File(String, String),
 }
 
-/// An event with its time.
+/// An event with its time and number.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stamped {
-    /// Of the run [ns].
+pub struct TimedEvent {
+    /// Time of the event in the run (ns).
     pub time_ns: u64,
-    /// See the crate's table.
+    /// Number of the event; see the table of the crate.
     pub number: u32,
-    /// What happened.
-    pub event: Event,
+    /// The event.
+    pub event: RunEvent,
 }
 
-impl Stamped {
-    /// Of the run [s].
+impl TimedEvent {
+    /// Time of the event in the run (s).
     pub fn time(&self) -> f64 {
         self.time_ns as f64 / 1e9
     }
 }
 
-/// The files that hold a run: the file itself, or in a folder [`RUN_FILE`], or if that is not there what the processes left
-/// behind.
+/// The files that hold a run: `run` itself if it is a file; in a folder [`RUN_FILE`], or without it the files of the
+/// processes.
 ///
 /// # Errors
-/// There is nothing of the kind.
+/// The folder holds none of them.
 pub fn files_of(run: &Path) -> Result<Vec<PathBuf>, RecordError> {
     if !run.is_dir() {
         return Ok(vec![run.to_owned()]);
     }
     let whole = run.join(RUN_FILE);
     let parts = [CONTROLLER_FILE, PLANT_FILE].map(|name| run.join(name));
-    let there: Vec<_> = parts.into_iter().filter(|part| part.exists()).collect();
-    match (whole.exists(), there.is_empty()) {
+    let present: Vec<_> = parts.into_iter().filter(|part| part.exists()).collect();
+    match (whole.exists(), present.is_empty()) {
         (true, _) => Ok(vec![whole]),
-        (false, false) => Ok(there),
+        (false, false) => Ok(present),
         (false, true) => {
             let names = format!("{RUN_FILE}, or {CONTROLLER_FILE} and {PLANT_FILE}");
             Err(RecordError::Nothing { folder: run.to_owned(), names })
@@ -81,36 +84,37 @@ pub fn files_of(run: &Path) -> Result<Vec<PathBuf>, RecordError> {
     }
 }
 
-/// What a run began with: a recording, or the folder that holds it. Of files with the same name the first is taken.
+/// The provenance of a run, given by its recording or by the folder that holds it. Of files with the same name the
+/// first is taken.
 ///
 /// # Errors
 /// See [`files_of`] and [`Recording::next_item`].
-pub fn origin_of(run: &Path) -> Result<Origin, RecordError> {
-    let mut origin = Origin::default();
+pub fn provenance_of(run: &Path) -> Result<Provenance, RecordError> {
+    let mut provenance = Provenance::default();
     for file in files_of(run)? {
         let mut recording = Recording::open(&file)?;
-        // It stands before all events.
+        // It comes before all events.
         while let Some(item) = recording.next_item()? {
             match item {
-                Item::Note(note) => origin.notes.push(note),
-                Item::File(name, text) => origin.attach(name, text),
+                Item::Metadata(metadata) => provenance.metadata.push(metadata),
+                Item::File(name, text) => provenance.attach(name, text),
                 Item::Event(_) => break,
             }
         }
     }
-    Ok(origin)
+    Ok(provenance)
 }
 
 impl Recording {
     /// Opens a file.
     ///
     /// # Errors
-    /// It cannot be read. What it holds shows as it is read.
+    /// The file cannot be opened. Its content is checked as it is read.
     pub fn open(path: &Path) -> Result<Self, RecordError> {
         let file = File::open(path).map_err(RecordError::io(path))?;
         let options = LinearReaderOptions::default()
             .with_skip_end_magic(true)
-            // A chunk that was cut off gives nothing, and one that was damaged nothing wrong.
+            // A truncated chunk yields nothing, and a damaged one nothing wrong.
             .with_prevalidate_chunk_crcs(true)
             .with_record_length_limit(RECORD_MAX);
         Ok(Self {
@@ -125,16 +129,17 @@ impl Recording {
         })
     }
 
-    /// What comes next; `None` at the end, or where the file was cut off or damaged: see [`cut`](Self::cut).
+    /// The next part of the recording; `None` at the end, or where the file is truncated or damaged: see
+    /// [`cut`](Self::cut).
     ///
     /// # Errors
-    /// The system says no, or it is no recording of this version.
+    /// The file cannot be read, or is not a recording of this version.
     pub fn next_item(&mut self) -> Result<Option<Item>, RecordError> {
         while !self.is_whole && self.damage.is_none() {
             match self.reader.next_event() {
                 None => self.damage = Some("it ends without an index".to_owned()),
                 Some(Err(McapError::BadMagic)) => return Err(RecordError::NotMcap { file: self.path.clone() }),
-                Some(Err(McapError::UnexpectedEof)) => self.damage = Some("it ends amid a chunk".to_owned()),
+                Some(Err(McapError::UnexpectedEof)) => self.damage = Some("it ends inside a chunk".to_owned()),
                 Some(Err(error)) => self.damage = Some(error.to_string()),
                 Some(Ok(LinearReadEvent::ReadRequest(wanted))) => {
                     let read = self.file.read(self.reader.insert(wanted)).map_err(RecordError::io(&self.path))?;
@@ -154,11 +159,11 @@ impl Recording {
         Ok(None)
     }
 
-    /// The next event; `None` as [`next_item`](Self::next_item).
+    /// The next event; `None` as for [`next_item`](Self::next_item).
     ///
     /// # Errors
     /// See [`next_item`](Self::next_item).
-    pub fn next_event(&mut self) -> Result<Option<Stamped>, RecordError> {
+    pub fn next_event(&mut self) -> Result<Option<TimedEvent>, RecordError> {
         loop {
             match self.next_item()? {
                 Some(Item::Event(event)) => return Ok(Some(*event)),
@@ -168,13 +173,14 @@ impl Recording {
         }
     }
 
-    /// Once it has been read: why its end is missing, if it is, and from when on.
+    /// After reading: why and from which time on the end of the recording is missing; `None` if it is complete.
     pub fn cut(&self) -> Option<String> {
         let seconds = self.time_ns as f64 * 1e-9;
         let damage = self.damage.as_ref()?;
-        Some(format!("{}: whole up to {seconds:.3} s: {damage}", self.path.display()))
+        Some(format!("{}: truncated, valid up to {seconds:.3} s: {damage}", self.path.display()))
     }
 
+    /// The part of the recording in an MCAP record, if it is one.
     fn item(&mut self, record: Record) -> Result<Option<Item>, RecordError> {
         match record {
             Record::Schema { header, data } => {
@@ -189,7 +195,7 @@ impl Recording {
             }
             Record::Message { header, data } => {
                 let Some(channel) = self.channels.get(&header.channel_id) else { return Ok(None) };
-                let event = data.strip_prefix(&HEAD).and_then(|bytes| channel.event(bytes));
+                let event = data.strip_prefix(&HEAD).and_then(|bytes| channel.decode(bytes));
                 let event = event.ok_or_else(|| RecordError::WrongSize {
                     file: self.path.clone(),
                     topic: channel.topic().to_owned(),
@@ -197,13 +203,16 @@ impl Recording {
                     size: data.len(),
                 })?;
                 self.time_ns = header.log_time;
-                return Ok(Some(Item::Event(Box::new(Stamped {
+                return Ok(Some(Item::Event(Box::new(TimedEvent {
                     time_ns: header.log_time,
                     number: header.sequence,
                     event,
                 }))));
             }
-            Record::Metadata(note) => return Ok(Some(Item::Note(Note { name: note.name, words: note.metadata }))),
+            Record::Metadata(record) => {
+                let metadata = Metadata { name: record.name, entries: record.metadata };
+                return Ok(Some(Item::Metadata(metadata)));
+            }
             Record::Attachment { header, data, .. } => {
                 return Ok(Some(Item::File(header.name, String::from_utf8_lossy(&data).into_owned())));
             }
@@ -213,7 +222,7 @@ impl Recording {
         Ok(None)
     }
 
-    /// Whether a channel's messages are laid out as they are here.
+    /// Checks that the messages of a channel have the layout of this version.
     fn check(&self, channel: Channel, schema: u16, encoding: &str) -> Result<(), RecordError> {
         let expected = schema::text(&channel.layout());
         let none = (String::new(), String::new());
@@ -235,13 +244,13 @@ impl Recording {
 mod tests {
     use std::collections::BTreeMap;
 
-    use wire::{LaidOut, SetpointMessage};
+    use wire::{SetpointMessage, WireLayout};
 
     use super::*;
     use crate::RecordingWriter;
 
-    /// A file with one channel that somebody else wrote, and what reading it says.
-    fn foreign(topic: &str, encoding: &str, schema: &str) -> Result<Option<Stamped>, String> {
+    /// The result of reading a file with one channel of another program.
+    fn foreign(topic: &str, encoding: &str, schema: &str) -> Result<Option<TimedEvent>, String> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("foreign.mcap");
         let mut mcap = mcap::Writer::new(File::create(&path).unwrap()).unwrap();
@@ -257,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_laid_out_otherwise_is_refused() {
+    fn messages_of_another_layout_are_refused() {
         let own = schema::text(&SetpointMessage::layout());
         let older = own.replace("v1", "v0").replace("float64[20] rates\n", "");
         let expected = "folder/foreign.mcap: /setpoints was written by another version: its messages are \
@@ -269,28 +278,28 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_ours_is_passed_over() {
+    fn channels_of_other_programs_are_skipped() {
         assert_eq!(foreign("/camera", "json", "{}"), Ok(None));
     }
 
     #[test]
-    fn a_folder_holds_the_whole_or_its_parts() {
+    fn a_folder_of_a_run_is_read_whole_or_in_parts() {
         let folder = tempfile::tempdir().unwrap();
         let file = |name: &str| folder.path().join(name);
         assert!(files_of(folder.path()).unwrap_err().to_string().contains("holds no recording; it must hold run.mcap"));
         for name in [PLANT_FILE, CONTROLLER_FILE] {
             let files = vec![(name.to_owned(), "text".to_owned()), ("both".to_owned(), name.to_owned())];
-            let origin = Origin { notes: vec![Note::new(name, [("key", "value".to_owned())])], files };
-            RecordingWriter::create(&file(name), &origin).unwrap().finish().unwrap();
+            let provenance = Provenance { metadata: vec![Metadata::new(name, [("key", "value".to_owned())])], files };
+            RecordingWriter::create(&file(name), &provenance).unwrap().finish().unwrap();
         }
         let parts = files_of(folder.path()).unwrap();
         assert_eq!(parts, [file(CONTROLLER_FILE), file(PLANT_FILE)]);
-        let origin = origin_of(folder.path()).unwrap();
-        assert_eq!((origin.files.len(), origin.file("both")), (3, Some(CONTROLLER_FILE)));
+        let provenance = provenance_of(folder.path()).unwrap();
+        assert_eq!((provenance.files.len(), provenance.file("both")), (3, Some(CONTROLLER_FILE)));
 
         crate::merge(&parts, &file(RUN_FILE)).unwrap();
         assert_eq!(files_of(folder.path()).unwrap(), [file(RUN_FILE)]);
-        assert_eq!(origin_of(folder.path()).unwrap(), origin);
-        assert_eq!(origin.word(PLANT_FILE, "key"), Some("value"));
+        assert_eq!(provenance_of(folder.path()).unwrap(), provenance);
+        assert_eq!(provenance.entry(PLANT_FILE, "key"), Some("value"));
     }
 }

@@ -2,31 +2,31 @@
 
 use std::fmt::Write;
 
-use wire::{Layout, Number};
+use wire::{Layout, NumberType};
 
-/// How MCAP calls what [`text`] writes.
+/// MCAP's name for the encoding of [`text`].
 pub const SCHEMA_ENCODING: &str = "ros2msg";
-/// How MCAP calls what [`HEAD`] and a message's bytes make.
+/// MCAP's name for the encoding of [`HEAD`] followed by the bytes of a message.
 pub const MESSAGE_ENCODING: &str = "cdr";
-/// Before each message: CDR, little-endian. Fields are aligned from here on, as they are in shared memory.
+/// Comes before each message: CDR, little-endian. Fields are aligned from its end on, as in shared memory.
 pub const HEAD: [u8; 4] = [0, 1, 0, 0];
 
-/// What the message is called in ROS 2: `halfstep/msg/Setpoint`.
+/// Name of the message in ROS 2: `halfstep/msg/Setpoint`.
 pub fn name(layout: &Layout) -> String {
     format!("halfstep/msg/{}", layout.message.trim_end_matches("Message"))
 }
 
-/// The schema: a line per field, after one that names the layout's version.
+/// The schema: a line that names the version of the layout, and one for each field.
 pub fn text(layout: &Layout) -> String {
     let mut text = format!("# {}\n", layout.type_name);
     for field in &layout.fields {
         let number = match field.number {
-            Number::U32 => "uint32",
-            Number::U64 => "uint64",
-            Number::F64 => "float64",
+            NumberType::U32 => "uint32",
+            NumberType::U64 => "uint64",
+            NumberType::F64 => "float64",
         };
         let many = field.count.map_or(String::new(), |count| format!("[{count}]"));
-        // A String takes everything.
+        // Writing to a String cannot fail.
         let _ = writeln!(text, "{number}{many} {}", field.name);
     }
     text
@@ -48,12 +48,12 @@ mod tests {
 
     /// CDR aligns every number to its size, counted from the end of the head.
     #[test]
-    fn shared_memory_is_aligned_as_cdr_is() {
+    fn fields_in_shared_memory_are_aligned_as_in_cdr() {
         for channel in Channel::ALL {
             let layout = channel.layout();
             let mut end = 0;
             for field in &layout.fields {
-                let size = if field.number == Number::U32 { 4 } else { 8 };
+                let size = if field.number == NumberType::U32 { 4 } else { 8 };
                 assert_eq!((field.offset, field.offset % size), (end, 0), "{} {}", layout.message, field.name);
                 end = field.offset + size * field.count.unwrap_or(1);
             }

@@ -6,37 +6,39 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use mcap::records::MessageHeader;
-use mcap::write::{Metadata, NoSeek};
+use mcap::write::NoSeek;
 use mcap::{Attachment, WriteOptions, Writer};
 
 use crate::schema::{self, HEAD, MESSAGE_ENCODING, SCHEMA_ENCODING};
-use crate::{Channel, Event, Note, Origin, RecordError};
+use crate::{Channel, Metadata, Provenance, RecordError, RunEvent};
 
-/// How much of the run is in a chunk [ns]: whoever is killed loses no more.
+/// Time of the run in a chunk (ns): a killed process loses at most that much.
 const CHUNK_NS: u64 = 500_000_000;
 
-/// Writes a recording, a chunk at a time.
+/// Writes a recording, chunk by chunk.
 pub struct RecordingWriter {
+    /// Path of the file, for messages.
     path: PathBuf,
     mcap: Writer<NoSeek<BufWriter<File>>>,
-    /// MCAP's numbers of our channels, in their order.
+    /// MCAP's numbers of the channels, in the order of [`Channel::ALL`].
     ids: Vec<u16>,
+    /// The bytes of the message that is being written.
     bytes: Vec<u8>,
-    /// When the present chunk is to end [ns].
+    /// Time of the run at which the present chunk ends (ns).
     chunk_end: u64,
 }
 
 impl RecordingWriter {
-    /// Creates the file, or empties it, and writes what the run began with.
+    /// Creates or truncates the file, and writes the provenance of the run.
     ///
     /// # Errors
-    /// It cannot be written.
-    pub fn create(path: &Path, origin: &Origin) -> Result<Self, RecordError> {
+    /// The file cannot be written.
+    pub fn create(path: &Path, provenance: &Provenance) -> Result<Self, RecordError> {
         let file = File::create(path).map_err(RecordError::io(path))?;
         let options = WriteOptions::new()
             .compression(None)
             .library(concat!("halfstep ", env!("CARGO_PKG_VERSION")))
-            // Chunks end by time, and reach the file whole.
+            // Chunks end by time, and are written to the file as a whole.
             .chunk_size(None)
             .disable_seeking(true);
         let wrong = |cause| RecordError::unwritable(path, cause);
@@ -49,10 +51,10 @@ impl RecordingWriter {
             ids.push(mcap.add_channel(id, channel.topic(), MESSAGE_ENCODING, &Default::default()).map_err(wrong)?);
         }
         let mut writer = Self { path: path.to_owned(), mcap, ids, bytes: Vec::new(), chunk_end: CHUNK_NS };
-        for note in &origin.notes {
-            writer.note(note)?;
+        for metadata in &provenance.metadata {
+            writer.write_metadata(metadata)?;
         }
-        for (name, text) in &origin.files {
+        for (name, text) in &provenance.files {
             writer.attach(name, text)?;
         }
         writer.flush()?;
@@ -61,19 +63,19 @@ impl RecordingWriter {
 
     /// Writes an event.
     ///
-    /// * `time_ns` – of the run; must not decrease
-    /// * `number` – see the crate's table
+    /// * `time_ns` – time of the run (ns); must not decrease
+    /// * `number` – number of the event; see the table of the crate
     ///
     /// # Errors
-    /// It cannot be written.
-    pub fn write(&mut self, time_ns: u64, number: u32, event: &Event) -> Result<(), RecordError> {
+    /// The file cannot be written.
+    pub fn write(&mut self, time_ns: u64, number: u32, event: &RunEvent) -> Result<(), RecordError> {
         if time_ns >= self.chunk_end {
             self.flush()?;
             self.chunk_end = time_ns - time_ns % CHUNK_NS + CHUNK_NS;
         }
         self.bytes.clear();
         self.bytes.extend(HEAD);
-        event.put(&mut self.bytes);
+        event.encode(&mut self.bytes);
         let channel_id = self.ids[event.channel() as usize];
         let header = MessageHeader { channel_id, sequence: number, log_time: time_ns, publish_time: time_ns };
         self.mcap
@@ -81,19 +83,19 @@ impl RecordingWriter {
             .map_err(|cause| RecordError::unwritable(&self.path, cause))
     }
 
-    /// Writes a note.
+    /// Writes metadata.
     ///
     /// # Errors
-    /// It cannot be written.
-    pub fn note(&mut self, note: &Note) -> Result<(), RecordError> {
-        let metadata = Metadata { name: note.name.clone(), metadata: note.words.clone() };
-        self.mcap.write_metadata(&metadata).map_err(|cause| RecordError::unwritable(&self.path, cause))
+    /// The file cannot be written.
+    pub fn write_metadata(&mut self, metadata: &Metadata) -> Result<(), RecordError> {
+        let record = mcap::records::Metadata { name: metadata.name.clone(), metadata: metadata.entries.clone() };
+        self.mcap.write_metadata(&record).map_err(|cause| RecordError::unwritable(&self.path, cause))
     }
 
     /// Attaches a file.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// The file cannot be written.
     pub(crate) fn attach(&mut self, name: &str, text: &str) -> Result<(), RecordError> {
         let attachment = Attachment {
             log_time: 0,
@@ -105,18 +107,18 @@ impl RecordingWriter {
         self.mcap.attach(&attachment).map_err(|cause| RecordError::unwritable(&self.path, cause))
     }
 
-    /// Ends the present chunk: all that was written can be read from now on, whatever happens to this process.
+    /// Ends the present chunk: everything written so far can be read even if this process is killed.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// The file cannot be written.
     pub fn flush(&mut self) -> Result<(), RecordError> {
         self.mcap.flush().map_err(|cause| RecordError::unwritable(&self.path, cause))
     }
 
-    /// Writes the index with which others find their way in it.
+    /// Writes the index by which other programs seek in the file.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// The file cannot be written.
     pub fn finish(mut self) -> Result<(), RecordError> {
         self.mcap.finish().map_err(|cause| RecordError::unwritable(&self.path, cause))?;
         self.mcap.into_inner().into_inner().flush().map_err(RecordError::io(&self.path))

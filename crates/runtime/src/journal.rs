@@ -1,8 +1,8 @@
-//! The journal: what the loop has to tell, written down by somebody else.
+//! The journal: entries from the loop, processed by another thread.
 //!
-//! The loop pushes `Copy` values into a bounded ring; a thread of its own takes them out and does with them what the
-//! loop must not: format, send, write files. When the thread falls behind, the *newest* entry is refused and counted:
-//! what happened first explains what came after, and every accepted entry is delivered once and in order.
+//! The loop pushes `Copy` values into a bounded ring; another thread takes them out and does what the loop must not:
+//! format, send, write files. When the thread falls behind, the *newest* entry is refused and counted, since the first
+//! entries explain the later ones. Every accepted entry is delivered once and in order.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -11,44 +11,47 @@ use std::time::Duration;
 
 use crossbeam::queue::ArrayQueue;
 
-/// How long the thread sleeps when there is nothing to do: were the loop to wake it, that would be a system call.
-const NAP: Duration = Duration::from_millis(1);
+/// Time that the thread sleeps when the ring is empty. The loop does not wake it, since that would be a system call.
+const POLL_INTERVAL: Duration = Duration::from_millis(1);
 
-/// The loop's side of a journal. Dropping it closes the journal.
+/// The loop's end of a journal. Dropping it closes the journal.
 #[derive(Debug)]
 pub struct Journal<T: Copy + Send + 'static> {
     ring: Arc<Ring<T>>,
 }
 
-/// The side of whoever opened the journal: the thread that takes the entries out.
+/// The other end of a journal: the thread that takes the entries out.
 #[derive(Debug)]
 #[must_use = "the last entries are certain to be written only after `join`"]
 pub struct JournalEnd<S> {
     thread: JoinHandle<Written<S>>,
 }
 
-/// What has become of a closed journal.
+/// The result of a closed journal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Written<S> {
-    /// What the entries were handed to.
+    /// The sink that received the entries.
     pub sink: S,
-    /// How many entries found the ring full.
+    /// Number of entries that were lost because the ring was full.
     pub dropped: u64,
 }
 
+/// The bounded ring between the two threads.
 #[derive(Debug)]
 struct Ring<T> {
     entries: ArrayQueue<T>,
+    /// Number of entries that were lost.
     dropped: AtomicU64,
+    /// Whether the loop has dropped its end.
     closed: AtomicBool,
 }
 
 impl<T: Copy + Send + 'static> Journal<T> {
-    /// Opens a journal with room for `capacity` entries, and starts the thread called `name` that hands each entry to
+    /// Opens a journal with room for `capacity` entries, and starts a thread called `name` that passes each entry to
     /// `take` together with the `sink`.
     ///
     /// # Errors
-    /// The system refuses another thread.
+    /// The system cannot start another thread.
     ///
     /// # Panics
     /// `capacity` is 0.
@@ -66,7 +69,7 @@ impl<T: Copy + Send + 'static> Journal<T> {
         let reader = Arc::clone(&ring);
         let thread = std::thread::Builder::new().name(name.to_owned()).spawn(move || {
             loop {
-                // In this order: after closing nothing is pushed, so that an empty ring is the end.
+                // In this order: nothing is pushed after closing, so that an empty ring is the end.
                 let closed = reader.closed.load(Ordering::Acquire);
                 while let Some(entry) = reader.entries.pop() {
                     take(&mut sink, entry);
@@ -74,7 +77,7 @@ impl<T: Copy + Send + 'static> Journal<T> {
                 if closed {
                     return Written { sink, dropped: reader.dropped.load(Ordering::Relaxed) };
                 }
-                std::thread::sleep(NAP);
+                std::thread::sleep(POLL_INTERVAL);
             }
         })?;
         Ok((Self { ring }, JournalEnd { thread }))
@@ -90,7 +93,7 @@ impl<T: Copy + Send + 'static> Journal<T> {
         accepted
     }
 
-    /// How many entries were lost so far.
+    /// Number of entries lost so far.
     pub fn dropped(&self) -> u64 {
         self.ring.dropped.load(Ordering::Relaxed)
     }
@@ -103,7 +106,7 @@ impl<T: Copy + Send + 'static> Drop for Journal<T> {
 }
 
 impl<S> JournalEnd<S> {
-    /// Waits until the [`Journal`] was dropped and its last entry taken, and gives the sink back.
+    /// Waits until the [`Journal`] is dropped and its last entry taken, and returns the sink.
     ///
     /// # Panics
     /// If taking an entry panicked, with the same panic.
@@ -119,7 +122,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn closing_delivers_every_accepted_entry_in_order() {
+    fn a_closed_journal_has_delivered_every_accepted_entry_in_order() {
         let (mut journal, end) = Journal::open("test", 100_000, Vec::new(), Vec::push).unwrap();
         let entries: Vec<u32> = (0..100_000).collect();
         assert!(entries.iter().all(|&entry| journal.push(entry)));
@@ -128,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn a_full_ring_refuses_the_newest_and_counts_it() {
+    fn a_full_journal_refuses_the_newest_entry_and_counts_it() {
         // The thread takes the first entry and is then held up until the ring has overflowed.
         let (taken, first_is_taken) = mpsc::channel();
         let (go_on, held_up) = mpsc::channel::<()>();
@@ -152,7 +155,7 @@ mod tests {
 
     #[test]
     #[should_panic(expected = "no space left")]
-    fn a_panic_while_taking_is_not_swallowed() {
+    fn a_panic_in_the_thread_of_a_journal_is_propagated() {
         let (mut journal, end) = Journal::open("test", 4, (), |_, _: u8| panic!("no space left")).unwrap();
         journal.push(0);
         drop(journal);

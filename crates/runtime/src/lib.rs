@@ -1,6 +1,6 @@
-//! When things happen: deadlines, real-time scheduling, and a journal that never holds up the loop.
+//! Timing of loops: deadlines, real-time scheduling, and a journal that never blocks the loop.
 //!
-//! The only crate that asks for the time. It knows nothing of robots and depends on no other crate of the workspace.
+//! Knows nothing of robots, and depends on no other crate of the workspace.
 
 mod journal;
 mod period;

@@ -1,9 +1,10 @@
-//! Periods have deadlines, not pauses: the n-th begins at `start + n · period`, however long the work took.
+//! Periods with absolute deadlines: the n-th begins at `start + n · period`, however long the work took.
 //!
-//! * **deadline**: an absolute time on `CLOCK_MONOTONIC`, which no one sets and all processes of the machine share.
+//! * **deadline**: an absolute time on `CLOCK_MONOTONIC`, which is never set and shared by all processes of the
+//!   machine.
 //! * **missed**: a whole period in which the loop did not wake up. After a delay of 2.3 periods two were missed; the
 //!   third begins at once, 0.3 periods late, and the next one on time: the phase is kept, and nothing is caught up.
-//! * **spin**: how long before the deadline sleeping ends; the rest is waited for on the core, since no system wakes a
+//! * **spin**: the time before the deadline that is spent busy-waiting instead of sleeping, since no system wakes a
 //!   thread up to the microsecond.
 
 use std::time::Duration;
@@ -15,35 +16,39 @@ use rustix::time::{Timespec, clock_gettime};
 /// A grid of deadlines, and the next one on it.
 #[derive(Clone, Copy, Debug)]
 pub struct Period {
+    /// Length of a period (ns).
     length_ns: u64,
+    /// The next deadline on `CLOCK_MONOTONIC` (ns).
     deadline_ns: u64,
+    /// Busy-waiting time before each deadline (ns).
     spin_ns: u64,
 }
 
-/// How a period began.
+/// The beginning of a period.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Wake {
-    /// Whole periods that were missed: 0 as long as the work fits into the period.
+    /// Number of whole periods that were missed: 0 as long as the work fits into the period.
     pub missed: u64,
-    /// How long after its deadline [ns].
+    /// Lateness after the deadline (ns).
     pub late_ns: u64,
 }
 
 impl Period {
-    /// Periods of `length` from now on; the first deadline is one `length` away. Shorter lengths than 1 ns count as 1 ns.
+    /// Periods of `length` from now on; the first deadline is one `length` away. Shorter lengths than 1 ns count as 1
+    /// ns.
     pub fn starting_now(length: Duration) -> Self {
         let length_ns = u64::try_from(length.as_nanos()).unwrap_or(u64::MAX / 2).max(1);
         Self { length_ns, deadline_ns: now_ns().saturating_add(length_ns), spin_ns: 0 }
     }
 
-    /// The same periods, the last `spin` of the wait for each spent awake. At most half a period: a thread that never
-    /// sleeps is in everybody's way.
+    /// The same periods, with busy-waiting for the last `spin` before each deadline. At most half a period: a thread
+    /// that never sleeps blocks others.
     pub fn with_spin(self, spin: Duration) -> Self {
         let spin_ns = u64::try_from(spin.as_nanos()).unwrap_or(u64::MAX).min(self.length_ns / 2);
         Self { spin_ns, ..self }
     }
 
-    /// Waits until the deadline, if it is still to come, and moves it one period on. Neither allocates nor fails; the
+    /// Waits until the deadline, unless it has passed, and moves it on by one period. Neither allocates nor fails; the
     /// only system call is the sleep.
     pub fn wait(&mut self) -> Wake {
         let missed = self.skip_missed(now_ns());
@@ -58,12 +63,12 @@ impl Period {
         Wake { missed, late_ns: woke_ns - deadline_ns }
     }
 
-    /// The next deadline on `CLOCK_MONOTONIC` [ns].
+    /// The next deadline on `CLOCK_MONOTONIC` (ns).
     pub fn deadline_ns(&self) -> u64 {
         self.deadline_ns
     }
 
-    /// Moves the deadline over the whole periods that have passed since, and says how many those were.
+    /// Moves the deadline over the whole periods that have passed since, and returns their number.
     fn skip_missed(&mut self, now_ns: u64) -> u64 {
         let missed = now_ns.saturating_sub(self.deadline_ns) / self.length_ns;
         self.deadline_ns += missed * self.length_ns;
@@ -71,7 +76,7 @@ impl Period {
     }
 }
 
-/// The time on `CLOCK_MONOTONIC` [ns], the same in all processes of the machine.
+/// The time on `CLOCK_MONOTONIC` (ns), the same in all processes of the machine.
 pub fn now_ns() -> u64 {
     let now = clock_gettime(rustix::time::ClockId::Monotonic);
     // Neither part of a monotonic clock is ever negative.
@@ -82,7 +87,7 @@ const NS_PER_S: u64 = 1_000_000_000;
 
 fn sleep_until(deadline_ns: u64) {
     let deadline = Timespec { tv_sec: (deadline_ns / NS_PER_S) as i64, tv_nsec: (deadline_ns % NS_PER_S) as i64 };
-    // A signal may wake us early; the deadline is absolute, so that going back to sleep loses nothing.
+    // A signal may wake the thread early; since the deadline is absolute, sleeping again loses nothing.
     while clock_nanosleep_absolute(ClockId::Monotonic, &deadline) == Err(Errno::INTR) {}
 }
 
@@ -91,7 +96,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_sleeps_until_the_deadline_and_not_for_a_while() {
+    fn a_period_sleeps_until_its_deadline_however_long_the_work_takes() {
         let length = Duration::from_millis(5);
         let mut period = Period::starting_now(length);
         let first = period.deadline_ns();
@@ -118,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn a_late_caller_hears_how_many_it_missed_and_keeps_the_phase() {
+    fn a_late_loop_counts_its_missed_periods_and_keeps_its_phase() {
         let mut period = Period { length_ns: 100, deadline_ns: 1000, spin_ns: 0 };
         assert_eq!((period.skip_missed(700), period.deadline_ns), (0, 1000));
         assert_eq!((period.skip_missed(1000), period.deadline_ns), (0, 1000), "just in time");
@@ -127,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stall_is_counted() {
+    fn periods_missed_by_a_stall_are_counted() {
         let mut period = Period::starting_now(Duration::from_millis(1));
         period.wait();
         std::thread::sleep(Duration::from_millis(20));
@@ -135,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn extreme_lengths_do_not_overflow() {
+    fn periods_of_extreme_length_do_not_overflow() {
         assert_eq!(Period::starting_now(Duration::ZERO).length_ns, 1);
         let mut period = Period::starting_now(Duration::MAX);
         assert_eq!(period.skip_missed(now_ns()), 0);

@@ -1,6 +1,6 @@
-//! Scheduling: what a loop asks of the system so that it wakes up in time.
+//! Real-time scheduling: what a loop requests of the system so that it wakes up in time.
 //!
-//! Without permission the loop runs on as an ordinary thread; every refusal says how to get what was refused.
+//! Without permission the loop runs on as an ordinary thread; every refusal explains how to get the permission.
 
 use std::fmt;
 use std::fs::{File, OpenOptions};
@@ -12,64 +12,66 @@ use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity};
 
 use crate::system::{keep_freed_memory, schedule_fifo};
 
-/// What is asked for the calling thread and, of memory and sleep, for its process.
+/// Scheduling of the calling thread; memory and idle states concern its whole process.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Scheduling {
     /// Priority under `SCHED_FIFO`, 1 to 99; `None` is an ordinary thread.
     pub priority: Option<u8>,
     /// The only core to run on; `None` is any.
     pub core: Option<usize>,
-    /// Whether all memory is touched beforehand and stays in place.
+    /// Whether all memory is touched beforehand and locked.
     pub lock_memory: bool,
-    /// Whether idle cores are kept out of the sleep from which waking takes long.
+    /// Whether idle cores are kept out of deep idle states, from which waking takes long.
     pub keep_awake: bool,
 }
 
-/// What was granted. To be kept as long as it is needed.
+/// The outcome of a request for scheduling. Keep it as long as the scheduling is needed.
 #[derive(Debug)]
 pub struct Granted {
-    /// What was not, each with the way to get it.
+    /// The parts that were refused; each explains how to get the permission.
     pub refused: Vec<Refusal>,
-    /// Cores may sleep deeply again once it is closed.
+    /// While this file is open, cores stay out of deep idle states.
     _awake: Option<File>,
 }
 
-/// What was asked for and not granted.
+/// A part of the requested scheduling that was refused.
 #[derive(Debug)]
 pub enum Refusal {
     /// `SCHED_FIFO` with this priority.
     Priority(u8, io::Error),
-    /// To run on this core only.
+    /// Running on this core only.
     Core(usize, io::Error),
-    /// Memory that stays in place.
+    /// Locked memory.
     Memory(io::Error),
-    /// Cores that sleep lightly.
+    /// Cores without deep idle states.
     Awake(io::Error),
 }
 
-/// Touched beforehand [bytes]: many times what a loop needs.
+/// Stack that is touched beforehand (bytes): many times what a loop needs.
 const STACK: usize = 256 << 10;
+/// Heap that is touched beforehand (bytes): many times what a loop needs.
 const HEAP: usize = 8 << 20;
+/// Size of a page of memory (bytes).
 const PAGE: usize = 4096;
-/// The longest time in which an idle core must be back, as long as the file stays open, is written here [µs].
+/// The greatest wake-up latency of idle cores (µs) is written to this file; it holds as long as the file stays open.
 const LATENCY_FILE: &str = "/dev/cpu_dma_latency";
 
 impl Scheduling {
-    /// What a thread asks for that works for a loop which asks for this: `steps` less of priority, an ordinary thread where
-    /// there is no room for that. The loop has seen to memory and sleep, and keeps its core to itself.
+    /// The scheduling of a helper thread of a loop with this scheduling: its priority is lower by `steps`, or that of
+    /// an ordinary thread. Memory and idle states are the loop's affair, and its core is for the loop alone.
     pub fn below(&self, steps: u8) -> Self {
         let priority = self.priority.and_then(|priority| priority.checked_sub(steps)).filter(|priority| *priority > 0);
         Self { priority, ..Self::default() }
     }
 
-    /// Asks for all of it, for the calling thread. Other threads are best started before: they would inherit the core.
-    pub fn ask(&self) -> Granted {
+    /// Requests this scheduling for the calling thread. Start other threads before: they would inherit the core.
+    pub fn request(&self) -> Granted {
         let mut refused = Vec::new();
         if self.lock_memory {
             keep_freed_memory();
             touch_heap();
             touch_stack();
-            // What comes later is not locked: a loop allocates nothing, and other threads may have less than they map.
+            // Later memory is not locked: a loop allocates nothing, and other threads may use less than they map.
             refused.extend(mlockall(MlockAllFlags::CURRENT).err().map(|error| Refusal::Memory(error.into())));
         }
         let awake = self
@@ -99,8 +101,8 @@ impl fmt::Display for Refusal {
             }
             Refusal::Memory(error) => write!(
                 out,
-                "memory is not locked ({error}): give the binary the capability cap_ipc_lock, or raise the user's memlock \
-                 in /etc/security/limits.conf"
+                "memory is not locked ({error}): give the binary the capability cap_ipc_lock, or raise the user's \
+                 memlock in /etc/security/limits.conf"
             ),
             Refusal::Awake(error) => {
                 write!(out, "cores may sleep deeply ({LATENCY_FILE}: {error}): let the user write to that file")
@@ -109,10 +111,10 @@ impl fmt::Display for Refusal {
     }
 }
 
-/// Keeps the calling thread, and those that it starts, off a core; unless it may run nowhere else.
+/// Keeps the calling thread, and those that it starts, off a core, unless it is the only permitted one.
 ///
 /// # Errors
-/// The system does not tell or change where threads run.
+/// The system refuses to read or change the permitted cores.
 pub fn keep_off(core: usize) -> io::Result<()> {
     let mut cores = sched_getaffinity(None)?;
     if core < CpuSet::MAX_CPU {
@@ -157,9 +159,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_refused_is_told_with_the_way_to_get_it() {
+    fn refused_scheduling_explains_how_to_get_the_permission() {
         let scheduling = Scheduling { core: Some(usize::MAX), ..Scheduling::default() };
-        let refused = scheduling.ask().refused;
+        let refused = scheduling.request().refused;
         assert_eq!(refused.len(), 1, "{refused:?}");
         assert!(refused[0].to_string().contains("choose a core of this machine"));
         let denied = Refusal::Priority(80, io::ErrorKind::PermissionDenied.into()).to_string();
@@ -167,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn who_works_for_a_loop_never_comes_before_it() {
+    fn helper_threads_never_have_a_higher_priority_than_their_loop() {
         let of_loop = |priority| Scheduling { priority, core: Some(1), lock_memory: true, keep_awake: true };
         for (loops, below) in [(Some(80), Some(78)), (Some(2), None), (Some(1), None), (None, None)] {
             assert_eq!(of_loop(loops).below(2), Scheduling { priority: below, ..Scheduling::default() });
@@ -175,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn helpers_keep_off_the_loops_core_where_there_are_others() {
+    fn helper_threads_keep_off_the_core_of_the_loop_if_there_are_others() {
         let elsewhere = std::thread::spawn(|| {
             let before = sched_getaffinity(None).unwrap();
             let core = (0..CpuSet::MAX_CPU).find(|core| before.is_set(*core)).unwrap();
@@ -189,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_asked_nothing_refused() {
-        assert!(Scheduling::default().ask().refused.is_empty());
+    fn default_scheduling_is_never_refused() {
+        assert!(Scheduling::default().request().refused.is_empty());
     }
 }

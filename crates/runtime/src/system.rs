@@ -1,39 +1,39 @@
-//! What only the C library offers: the one place with `unsafe` in this crate.
+//! Calls of the C library: the only file with `unsafe` in this crate.
 
 use std::io;
 
-/// What the system has counted of one thread.
+/// Resource usage of a thread, as counted by the system.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Usage {
-    /// Pages that were not there when touched, with or without reading a disk.
+    /// Number of page faults, minor and major.
     pub page_faults: u64,
-    /// How often it gave the core up by itself: every sleep is one.
+    /// Number of voluntary context switches: every sleep is one.
     pub voluntary_switches: u64,
-    /// How often the core was taken from it.
+    /// Number of involuntary context switches.
     pub involuntary_switches: u64,
-    /// Time on a core, in the program and in the kernel [ns].
+    /// Processor time, in user space and in the kernel (ns).
     pub cpu_ns: u64,
 }
 
 impl Usage {
-    /// Of the calling thread, since it began. A system call.
+    /// Usage of the calling thread since its start. A system call.
     pub fn of_this_thread() -> Self {
         // SAFETY: `rusage` is plain numbers, for which zeros are valid, and the call only writes into it.
-        let told = unsafe {
-            let mut told: libc::rusage = std::mem::zeroed();
-            libc::getrusage(libc::RUSAGE_THREAD, &mut told);
-            told
+        let usage = unsafe {
+            let mut usage: libc::rusage = std::mem::zeroed();
+            libc::getrusage(libc::RUSAGE_THREAD, &mut usage);
+            usage
         };
         let ns = |time: libc::timeval| time.tv_sec as u64 * 1_000_000_000 + time.tv_usec as u64 * 1000;
         Self {
-            page_faults: (told.ru_minflt + told.ru_majflt) as u64,
-            voluntary_switches: told.ru_nvcsw as u64,
-            involuntary_switches: told.ru_nivcsw as u64,
-            cpu_ns: ns(told.ru_utime) + ns(told.ru_stime),
+            page_faults: (usage.ru_minflt + usage.ru_majflt) as u64,
+            voluntary_switches: usage.ru_nvcsw as u64,
+            involuntary_switches: usage.ru_nivcsw as u64,
+            cpu_ns: ns(usage.ru_utime) + ns(usage.ru_stime),
         }
     }
 
-    /// What has been added since an earlier look.
+    /// Usage since an earlier one of the same thread.
     pub fn since(self, earlier: Self) -> Self {
         Self {
             page_faults: self.page_faults - earlier.page_faults,
@@ -44,8 +44,8 @@ impl Usage {
     }
 }
 
-/// Puts the calling thread under `SCHED_FIFO`: it runs until it sleeps, before every ordinary thread. Threads that it
-/// starts are ordinary again.
+/// Puts the calling thread under `SCHED_FIFO`: it preempts every ordinary thread and runs until it sleeps. Threads that
+/// it starts are ordinary again.
 pub(crate) fn schedule_fifo(priority: u8) -> io::Result<()> {
     let parameter = libc::sched_param { sched_priority: priority.into() };
     // SAFETY: the parameter outlives the call, and 0 is the calling thread.
@@ -53,7 +53,7 @@ pub(crate) fn schedule_fifo(priority: u8) -> io::Result<()> {
     if result == 0 { Ok(()) } else { Err(io::Error::last_os_error()) }
 }
 
-/// Lets the allocator keep what it has got: freed memory that goes back to the system faults when it is needed again.
+/// Lets the allocator keep freed memory: returned to the system, it would cause page faults when it is needed again.
 pub(crate) fn keep_freed_memory() {
     #[cfg(target_env = "gnu")]
     // SAFETY: these only set limits of the allocator.

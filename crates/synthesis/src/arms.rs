@@ -2,14 +2,14 @@
 
 use model::{Joint, Mechanism, Motion};
 
-use crate::Parameters;
+use crate::SynthesisParameters;
 use crate::jet::Jet;
 
-/// Puts the arms' part into a motion. Over two half-steps the shoulders follow a cosine: extreme at the swap, where each takes
-/// the other's place at rest.
-pub fn swing_arms(mechanism: &Mechanism, parameters: &Parameters, progress: Jet, motion: &mut Motion) {
+/// Writes the motion of the arms into `motion`. Over two half-steps the shoulders follow a cosine: they are extreme and
+/// at rest at the support change.
+pub fn swing_arms(mechanism: &Mechanism, parameters: &SynthesisParameters, progress: Jet, motion: &mut Motion) {
     let forward = (progress * std::f64::consts::PI).cos() * -parameters.arm_swing;
-    // The right leg bears and goes back: the right arm comes forward.
+    // The right leg supports the robot and goes back, so the right arm comes forward.
     let bent = Jet::constant(parameters.elbow_flexion);
     for (joint, lifted) in [
         (Joint::RightShoulder, forward),
@@ -24,7 +24,7 @@ pub fn swing_arms(mechanism: &Mechanism, parameters: &Parameters, progress: Jet,
     }
 }
 
-/// The sign with which a joint lifts a hanging arm forward: against a rotation about y.
+/// The sign of the angle with which a joint lifts a hanging arm forward: against a rotation about y.
 fn lift(mechanism: &Mechanism, joint: Joint) -> f64 {
     -mechanism.links[joint].axis.y.signum()
 }

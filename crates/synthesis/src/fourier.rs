@@ -34,7 +34,7 @@ impl FourierSeries {
         Some(Self { coefficients })
     }
 
-    /// The value at a point of the cycle.
+    /// The value at a point of the cycle, with derivatives.
     pub fn at(&self, cycle: Jet) -> Jet {
         basis(cycle)
             .into_iter()
@@ -43,6 +43,7 @@ impl FourierSeries {
     }
 }
 
+/// The functions of the series at a point of the cycle.
 fn basis(cycle: Jet) -> [Jet; COEFFICIENTS] {
     std::array::from_fn(|index| {
         let angle = cycle * (std::f64::consts::TAU * index.div_ceil(2) as f64);
@@ -56,7 +57,7 @@ mod tests {
     use crate::jet::Jet;
 
     #[test]
-    fn a_series_is_found_again_from_its_samples() {
+    fn a_fourier_series_is_recovered_from_its_samples() {
         let f = |cycle: f64| {
             0.3 + 0.2 * (std::f64::consts::TAU * cycle).cos() - (3.0 * std::f64::consts::TAU * cycle).sin()
         };
@@ -68,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn too_few_samples_determine_nothing() {
+    fn fourier_series_are_not_determined_by_too_few_samples() {
         assert!(FourierSeries::fit(&[(0.0, 1.0), (0.5, 2.0)]).is_none());
     }
 }

@@ -1,23 +1,29 @@
-//! A quantity with its first and second derivative in time, carried along by the rules of differentiation.
+//! A quantity with its first and second derivative in time, by automatic differentiation.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
 use dynamics::sin_cos;
 use nalgebra::Vector3;
 
-/// Value, rate and acceleration of one quantity at one instant.
+/// Value, first and second derivative in time of a quantity at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Jet {
+    /// Value of the quantity (rad, m, -).
     pub value: f64,
+    /// First derivative in time (rad/s, m/s, 1/s).
     pub rate: f64,
+    /// Second derivative in time (rad/s², m/s², 1/s²).
     pub acceleration: f64,
 }
 
-/// A moving point: its position [m], velocity [m/s] and acceleration [m/s²].
+/// A moving point.
 #[derive(Clone, Copy, Debug)]
 pub struct PointMotion {
+    /// Position of the point (m).
     pub position: Vector3<f64>,
+    /// Velocity of the point (m/s).
     pub velocity: Vector3<f64>,
+    /// Acceleration of the point (m/s²).
     pub acceleration: Vector3<f64>,
 }
 
@@ -164,7 +170,7 @@ mod tests {
 
     /// Oracle: central differences of the value.
     #[test]
-    fn derivatives_are_those_of_the_value() {
+    fn derivatives_of_a_jet_agree_with_differences_of_its_value() {
         let f = |time: f64| {
             let s = Jet { value: time, rate: 1.0, acceleration: 0.0 };
             s.bump() * (s * 2.0).sinh() + s.smooth_step() * (s * 3.0).cos() - (s * s).cosh() * s.sin()
@@ -187,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn step_and_bump_rest_at_both_ends() {
+    fn smooth_step_and_bump_are_at_rest_at_both_ends() {
         for end in [0.0, 1.0] {
             let s = Jet { value: end, rate: 1.0, acceleration: 0.0 };
             assert_eq!(s.smooth_step(), Jet { value: end, ..Jet::default() });

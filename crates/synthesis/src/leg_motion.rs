@@ -4,14 +4,14 @@ use dynamics::{Kinematics, Leg, Tree, Unreachable, solve_leg};
 use model::{JointVector, Mechanism, Motion, Side};
 use nalgebra::{Isometry3, Matrix6, Vector3, Vector6};
 
-/// Bend of the first guess, from the foot up: shank ahead, thigh back, pelvis level [rad].
+/// Pitch angles of the first guess, from the foot up: shank ahead, thigh back, pelvis level (rad).
 const FIRST_BEND: [f64; 3] = [0.3, -0.6, 0.3];
 
-/// Bends both knees forward, so that inverse kinematics begins on the right side of the stretched leg.
+/// The first guess of inverse kinematics: both knees bent forward, on the right side of the stretched leg.
 pub fn first_guess(mechanism: &Mechanism) -> JointVector {
     let mut angles = JointVector::ZERO;
     for side in Side::BOTH {
-        // From the pelvis down each rotation is turned round; its order is the same either way.
+        // From the pelvis down each rotation is reversed; the order of the bends is the same either way.
         let direction = if side == Side::Right { 1.0 } else { -1.0 };
         let pitches = Leg(side).joints().into_iter().filter(|&joint| mechanism.links[joint].axis.y.abs() > 0.5);
         for (joint, bend) in pitches.zip(FIRST_BEND) {
@@ -21,23 +21,23 @@ pub fn first_guess(mechanism: &Mechanism) -> JointVector {
     angles
 }
 
-/// Where the far end of a leg is, and how it moves against the near end.
+/// Position of the far end of a leg, and its motion relative to the near end.
 #[derive(Clone, Copy, Debug)]
 pub struct LegEnd {
-    /// Of the origin of the last link, in support coordinates [m].
+    /// Position of the origin of the last link, in support coordinates (m).
     pub position: Vector3<f64>,
-    /// Against the leg's near end [m/s].
+    /// Velocity relative to the leg's near end (m/s).
     pub velocity: Vector3<f64>,
-    /// Against the leg's near end [m/s²].
+    /// Acceleration relative to the leg's near end (m/s²).
     pub acceleration: Vector3<f64>,
 }
 
-/// Fills in one leg's part of `motion`, whose angles are the first guess.
+/// Writes the motion of one leg into `motion`, whose angles are the first guess.
 pub fn move_leg(tree: &Tree, leg: Leg, end: &LegEnd, motion: &mut Motion) -> Result<(), Unreachable> {
     let target = Isometry3::from(end.position);
     solve_leg(tree, leg, &target, &mut motion.angles)?;
 
-    let kinematics = Kinematics::standing(tree, &motion.angles);
+    let kinematics = Kinematics::fixed_base(tree, &motion.angles);
     let jacobian = jacobian(&kinematics, leg).lu();
     let stretched = Unreachable { residual: 0.0 };
     let rates = jacobian.solve(&spatial(end.velocity, Vector3::zeros())).ok_or(stretched)?;
@@ -50,7 +50,7 @@ pub fn move_leg(tree: &Tree, leg: Leg, end: &LegEnd, motion: &mut Motion) -> Res
     Ok(())
 }
 
-/// Linear and angular velocity of the leg's end per joint rate, in world axes.
+/// The Jacobian: linear and angular velocity of the leg's end per joint rate, in world axes.
 fn jacobian(kinematics: &Kinematics, leg: Leg) -> Matrix6<f64> {
     let end = kinematics.origin[leg.end()];
     Matrix6::from_columns(&leg.joints().map(|joint| {
@@ -61,17 +61,17 @@ fn jacobian(kinematics: &Kinematics, leg: Leg) -> Matrix6<f64> {
 
 /// Linear and angular acceleration of the leg's end at the given rates when no joint accelerates: J̇·q̇.
 fn acceleration_without_drive(kinematics: &Kinematics, leg: Leg, rates: &Vector6<f64>) -> Vector6<f64> {
-    let (mut rate, mut turn, mut shift) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
+    let (mut rate, mut angular, mut linear) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
     let mut origin = kinematics.origin[leg.joints()[0]];
     for (joint, &joint_rate) in leg.joints().into_iter().zip(rates.iter()) {
         let arm = kinematics.origin[joint] - origin;
-        shift += turn.cross(&arm) + rate.cross(&rate.cross(&arm));
+        linear += angular.cross(&arm) + rate.cross(&rate.cross(&arm));
         origin = kinematics.origin[joint];
         let spin = kinematics.axis[joint] * joint_rate;
-        turn += rate.cross(&spin);
+        angular += rate.cross(&spin);
         rate += spin;
     }
-    spatial(shift, turn)
+    spatial(linear, angular)
 }
 
 fn spatial(linear: Vector3<f64>, angular: Vector3<f64>) -> Vector6<f64> {

@@ -1,4 +1,4 @@
-//! The prescribed part of the half-step: both legs and the arms, at every instant that counts.
+//! The prescribed part of the half-step: both legs and the arms.
 
 use dynamics::{Leg, Tree};
 use model::{Joint, Mechanism, Motion, Side};
@@ -8,14 +8,18 @@ use crate::arms::swing_arms;
 use crate::jet::Jet;
 use crate::leg_motion::{LegEnd, first_guess, move_leg};
 use crate::leg_path::{LegPath, hip_distance};
-use crate::{Parameters, SynthesisError};
+use crate::{SynthesisError, SynthesisParameters};
 
-/// Legs and arms at `points_per_interval` instants of each interval and at the end; the trunk straight and at rest.
+/// The motion of legs and arms at `points_per_interval` instants of each interval and at the end; the trunk straight
+/// and at rest.
+///
+/// # Errors
+/// A leg is too short, or inverse kinematics finds no angles.
 pub fn move_limbs(
     mechanism: &Mechanism,
     tree: &Tree,
     path: &dyn LegPath,
-    parameters: &Parameters,
+    parameters: &SynthesisParameters,
     points_per_interval: usize,
 ) -> Result<Vec<(Jet, Motion)>, SynthesisError> {
     let to_left_hip = Vector3::y() * (hip_distance(mechanism) / 2.0);
@@ -62,7 +66,7 @@ pub fn move_limbs(
     Ok(points)
 }
 
-/// Length of the stretched leg, hip to ankle [m].
+/// Length of the stretched leg, hip to ankle (m).
 fn leg_length(mechanism: &Mechanism) -> f64 {
     mechanism.links[Joint::LeftKnee].origin.norm() + mechanism.links[Joint::LeftAnklePitch].origin.norm()
 }

@@ -1,39 +1,40 @@
-//! The parameters of the half-step and their defaults, which make `config/nominal_half_step.csv`.
+//! The parameters of the half-step, and their defaults, from which `config/nominal_half_step.csv` is made.
 
 use crate::SynthesisError;
 
-/// What the half-step shall be.
+/// The parameters of a half-step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameters {
-    /// Distance between the feet at the swap; the swing foot travels twice as far [m].
+pub struct SynthesisParameters {
+    /// Distance between the feet at the support change (m); the swing foot travels twice as far.
     pub step_length: f64,
-    /// `T` [s].
+    /// Duration `T` of the half-step (s).
     pub duration: f64,
-    /// Greatest height of the swing sole above the ground [m].
+    /// Greatest height of the swing sole above the ground (m).
     pub clearance: f64,
-    /// Hip joints above the ground; at the swap, where it varies [m]. Lower bends the knees and leaves room for longer
-    /// steps.
+    /// Height of the hip joints above the ground (m); at the support change, where it varies. Lower hips bend the knees
+    /// and leave room for longer steps.
     pub hip_height: f64,
-    /// How far the pelvis moves towards the support foot, between the swap and the middle of the half-step [m]. The
-    /// centre of mass has to; what the pelvis leaves out, trunk roll makes up for.
+    /// Sway of the pelvis towards the support foot, between the support change and the middle of the half-step (m). The
+    /// centre of mass has to sway; trunk roll makes up for what the pelvis leaves out.
     pub pelvis_sway: f64,
-    /// How far the pelvis stays behind the middle between the feet at the swap [m]. Bent knees carry the thighs ahead, and
-    /// without setback the trunk leans back in return (13° by default); but with it front and rear leg are unlike at the
-    /// swap, so that a step extended by `β` ends with the foot `setback · β` above the ground.
+    /// Distance of the pelvis behind the middle between the feet at the support change (m). Bent knees carry the thighs
+    /// ahead, and without setback the trunk leans back in return (13° by default); but with it front and rear leg
+    /// differ at the support change, so that a step extended by `β` ends with the foot `setback · β` above the ground.
     pub pelvis_setback: f64,
-    /// Height of the inverted pendulum after whose motion the pelvis moves forward [m]: how much it slows down over the
-    /// support foot. The centre of mass has to; what the pelvis leaves out, trunk pitch makes up for. The swing leg changes
-    /// it, so that the height which keeps the trunk stillest is not the centre of mass's.
+    /// Height of the inverted pendulum whose forward motion the pelvis copies (m): it determines how much the pelvis
+    /// slows down over the support foot. The centre of mass has to slow down; trunk pitch makes up for what the pelvis
+    /// leaves out. Because of the swing leg, the height that keeps the trunk stillest is not that of the centre of
+    /// mass.
     pub pendulum_height: f64,
-    /// Shoulder swing to either side, against the legs [rad].
+    /// Amplitude of the shoulders' swing, opposite to the legs (rad).
     pub arm_swing: f64,
-    /// How far the elbows are bent [rad].
+    /// Flexion of the elbows (rad).
     pub elbow_flexion: f64,
-    /// `n_int`: intervals of the table.
+    /// `n_int`: number of intervals of the table.
     pub intervals: usize,
 }
 
-impl Default for Parameters {
+impl Default for SynthesisParameters {
     fn default() -> Self {
         Self {
             step_length: 0.25,
@@ -50,8 +51,8 @@ impl Default for Parameters {
     }
 }
 
-impl Parameters {
-    /// Refuses what no walk can be made of.
+impl SynthesisParameters {
+    /// Checks that a walk can have these parameters.
     ///
     /// # Errors
     /// [`SynthesisError::ParameterOutOfRange`] names the first parameter that is out of range.

@@ -7,35 +7,43 @@
 use model::{Joint, Mechanism};
 
 use crate::fourier::FourierSeries;
+use crate::gait_recording::{GaitRecording, Sample};
 use crate::jet::{Jet, PointMotion};
 use crate::leg_path::LegPath;
 use crate::pendulum_path::PendulumPath;
-use crate::recording::{Recording, Sample};
-use crate::{Parameters, SynthesisError};
+use crate::{SynthesisError, SynthesisParameters};
 
-/// Instants at which the swing foot's height is looked at.
-const LOOKS: usize = 240;
+/// Number of instants at which the height of the swing foot is sampled.
+const HEIGHT_SAMPLES: usize = 240;
 
 /// A recorded gait over one half-step.
 #[derive(Clone, Debug)]
 pub struct RecordedPath {
-    /// What the recording does not tell: step length, heights, the sway to the side.
+    /// Provides what the recording lacks: step length, heights, lateral sway.
     pendulum: PendulumPath,
-    /// The hip ahead of the ankle, over the cycle [m].
+    /// Position of the hip ahead of the ankle, over the cycle (m).
     ahead: FourierSeries,
-    /// The hip above the ankle, over the cycle [m].
+    /// Height of the hip above the ankle, over the cycle (m).
     above: FourierSeries,
-    /// How much shorter the step is than the recorded one.
+    /// Ratio of the step length to the recorded one (-).
     scale: f64,
-    /// Makes the arch of the recorded foot as high as it shall be.
+    /// Ratio of the clearance to that of the recorded foot (-).
     lift_scale: f64,
 }
 
 impl RecordedPath {
-    pub fn new(mechanism: &Mechanism, pendulum: PendulumPath, recording: &Recording) -> Result<Self, SynthesisError> {
+    /// The paths of a half-step with the shape of a recording.
+    ///
+    /// # Errors
+    /// The recording does not determine a shape, goes backwards, or has its swing foot below the ground.
+    pub fn new(
+        mechanism: &Mechanism,
+        pendulum: PendulumPath,
+        recording: &GaitRecording,
+    ) -> Result<Self, SynthesisError> {
         let thigh = mechanism.links[Joint::LeftKnee].origin.norm();
         let shank = mechanism.links[Joint::LeftAnklePitch].origin.norm();
-        // With the trunk upright the thigh is as far ahead as the hip is flexed, the shank less by the knee's flexion.
+        // With an upright trunk the thigh is pitched by the hip's flexion, the shank by that minus the knee's flexion.
         let fit = |hip_part: fn(Jet) -> Jet, sign: f64| {
             let samples = recording.samples.iter().map(|sample| {
                 let Sample { cycle, hip_flexion, knee_flexion } = *sample;
@@ -57,32 +65,32 @@ impl RecordedPath {
         Ok(path)
     }
 
-    /// The hip ahead of the bearing ankle, as recorded [m].
+    /// Position of the hip ahead of the support ankle, as recorded (m).
     fn hip_ahead(&self, progress: Jet) -> Jet {
         self.ahead.at(progress * 0.5)
     }
 
-    /// The hip above the bearing ankle, as recorded [m].
+    /// Height of the hip above the support ankle, as recorded (m).
     fn hip_above(&self, progress: Jet) -> Jet {
         self.above.at(progress * 0.5)
     }
 
-    /// The swinging ankle ahead of the bearing one, as recorded [m].
+    /// Position of the swing ankle ahead of the support ankle, as recorded (m).
     fn foot_ahead(&self, progress: Jet) -> Jet {
         self.hip_ahead(progress) - self.ahead.at(progress * 0.5 + 0.5)
     }
 
-    /// The swing foot's height with rest forced on both ends, before it is scaled to the clearance [m].
+    /// Height of the swing foot, forced to rest at both ends, before it is scaled to the clearance (m).
     fn lift(&self, progress: Jet) -> Jet {
         let above = |progress: Jet| self.hip_above(progress) - self.above.at(progress * 0.5 + 0.5);
         (above(progress) - chord(above, progress)) * progress.bump()
     }
 
-    /// The highest the unscaled swing foot comes [m].
+    /// Greatest height of the unscaled swing foot (m).
     fn highest_lift(&self) -> Result<f64, SynthesisError> {
         let mut highest = 0.0_f64;
-        for look in 1..LOOKS {
-            let progress = look as f64 / LOOKS as f64;
+        for sample in 1..HEIGHT_SAMPLES {
+            let progress = sample as f64 / HEIGHT_SAMPLES as f64;
             let lift = self.lift(Jet::constant(progress)).value;
             if lift < 0.0 {
                 return Err(SynthesisError::RecordedFootBelowGround { percent: 50.0 * (1.0 + progress) });
@@ -95,7 +103,7 @@ impl RecordedPath {
 
 impl LegPath for RecordedPath {
     fn pelvis(&self, progress: Jet) -> PointMotion {
-        let Parameters { step_length, pelvis_setback, hip_height, .. } = self.pendulum.parameters;
+        let SynthesisParameters { step_length, pelvis_setback, hip_height, .. } = self.pendulum.parameters;
         let middle = self.hip_ahead(Jet::constant(0.0)).value * self.scale + step_length / 2.0;
         let forward = closed(|at| self.hip_ahead(at) * self.scale, progress) - (middle + pelvis_setback);
         let vault = |at: Jet| self.hip_above(at) * self.scale;
@@ -106,7 +114,7 @@ impl LegPath for RecordedPath {
     fn swing_sole(&self, progress: Jet) -> PointMotion {
         let (start, end) = (self.foot_ahead(Jet::constant(0.0)).value, self.foot_ahead(Jet::constant(1.0)).value);
         let recorded = (self.foot_ahead(progress) - start) * (1.0 / (end - start));
-        // The recorded foot is on its way at both ends: there a smooth step takes over.
+        // The recorded foot moves at both ends: there a smooth step takes over.
         let at_rest = progress.smooth_step();
         let share = at_rest + (recorded - at_rest) * progress.bump();
         self.pendulum.swing_at(share, self.lift(progress) * self.lift_scale)
@@ -119,7 +127,7 @@ fn chord(path: impl Fn(Jet) -> Jet, progress: Jet) -> Jet {
     progress * (end - start) + start
 }
 
-/// The path with as little of a parabola added as makes both ends' rates alike; the ends stay.
+/// The path with the least parabola added that makes the rates at both ends equal; the ends stay.
 fn closed(path: impl Fn(Jet) -> Jet, progress: Jet) -> Jet {
     let rate_at = |end: f64| path(Jet { value: end, rate: 1.0, acceleration: 0.0 }).rate;
     let mismatch = rate_at(1.0) - rate_at(0.0);

@@ -1,5 +1,5 @@
-//! The semi-inverse method (Vukobratović and Stokić 1975; DESIGN §3): given the legs and arms, the two trunk joints such
-//! that the ground has no horizontal moment about O.
+//! The semi-inverse method (Vukobratović and Stokić 1975; DESIGN §3): given the legs and arms, the two trunk joints
+//! such that the ground has no horizontal moment about O.
 //!
 //! Each trunk joint is a quintic spline. Gauss–Newton drives the moments at all collocation points to zero in the least
 //! squares sense; that the end mirrors the start, in angle and rate, is linear in the coefficients and holds exactly.
@@ -12,29 +12,31 @@ use crate::SynthesisError;
 use crate::jet::Jet;
 use crate::spline::SplineBasis;
 
-/// The joints that carry the trunk; the mirror keeps each in its place.
-pub const TRUNK: [Joint; 2] = [Joint::WaistPitch, Joint::WaistRoll];
+/// The joints between pelvis and trunk; the mirror maps each to itself.
+pub const TRUNK_JOINTS: [Joint; 2] = [Joint::WaistPitch, Joint::WaistRoll];
 
-/// Coefficients of each trunk joint's spline: 14 leave up to 2 mm to a recorded gait, 32 a few hundredths of that.
+/// Coefficients of each trunk joint's spline: for a recorded gait 14 leave the ZMP up to 2 mm from O, 32 a few
+/// hundredths of that.
 const COEFFICIENTS: usize = 32;
+/// Most Gauss–Newton steps.
 const ITERATIONS_MAX: usize = 30;
-/// Largest change of a coefficient at which the fit counts as settled [rad].
+/// Largest change of a coefficient at which the iteration has converged (rad).
 const SETTLED: f64 = 1e-11;
 
-/// The trunk's motion, as found.
+/// The motion of the trunk that balances the robot.
 #[derive(Clone, Debug)]
 pub struct TrunkMotion {
     basis: SplineBasis,
-    /// Of both joints, one after the other [rad].
+    /// Spline coefficients of both joints, one after the other (rad).
     coefficients: Vec<f64>,
-    /// Gauss–Newton steps that it took.
+    /// Number of Gauss–Newton steps taken.
     pub iterations: usize,
 }
 
 impl TrunkMotion {
-    /// Puts the trunk's part into a motion.
+    /// Writes the motion of the trunk joints into `motion`.
     pub fn apply(&self, progress: Jet, motion: &mut Motion) {
-        for (joint, coefficients) in TRUNK.into_iter().zip(self.coefficients.chunks(COEFFICIENTS)) {
+        for (joint, coefficients) in TRUNK_JOINTS.into_iter().zip(self.coefficients.chunks(COEFFICIENTS)) {
             let Jet { value, rate, acceleration } = self.basis.evaluate(coefficients, progress);
             motion.angles[joint] = value;
             motion.rates[joint] = rate;
@@ -43,13 +45,13 @@ impl TrunkMotion {
     }
 }
 
-/// Finds the trunk's motion for the motion of everything else at the collocation points.
+/// Finds the motion of the trunk, given the motion of all other joints at the collocation points.
 ///
 /// # Errors
-/// [`SynthesisError::NotConverged`].
+/// [`SynthesisError::NotConverged`] when the iteration does not converge.
 pub fn balance_trunk(tree: &Tree, mirror: &Mirror, points: &[(Jet, Motion)]) -> Result<TrunkMotion, SynthesisError> {
     let basis = SplineBasis::new(COEFFICIENTS);
-    let unknowns = TRUNK.len() * COEFFICIENTS;
+    let unknowns = TRUNK_JOINTS.len() * COEFFICIENTS;
     let ends = end_conditions(&basis, mirror);
     let mut trunk = TrunkMotion { basis, coefficients: vec![0.0; unknowns], iterations: 0 };
     let mut moments = ZmpJacobian::default();
@@ -95,8 +97,8 @@ pub fn balance_trunk(tree: &Tree, mirror: &Mirror, points: &[(Jet, Motion)]) -> 
 
 /// For each trunk joint, angle and rate: (end − sign·start)·coefficients = 0.
 fn end_conditions(basis: &SplineBasis, mirror: &Mirror) -> DMatrix<f64> {
-    let mut conditions = DMatrix::zeros(2 * TRUNK.len(), TRUNK.len() * COEFFICIENTS);
-    for (position, joint) in TRUNK.into_iter().enumerate() {
+    let mut conditions = DMatrix::zeros(2 * TRUNK_JOINTS.len(), TRUNK_JOINTS.len() * COEFFICIENTS);
+    for (position, joint) in TRUNK_JOINTS.into_iter().enumerate() {
         for (end, sign) in [(1.0, 1.0), (0.0, -mirror.sign(joint))] {
             let (range, functions) = basis.at(Jet { value: end, rate: 1.0, acceleration: 0.0 });
             for (column, function) in range.zip(functions) {
@@ -109,11 +111,11 @@ fn end_conditions(basis: &SplineBasis, mirror: &Mirror) -> DMatrix<f64> {
     conditions
 }
 
-/// How the ground's moment per weight changes with each spline coefficient that matters at one instant.
+/// Derivatives of the ground's moment per weight by the spline coefficients that are active at one instant.
 fn slopes_by_coefficient(moments: &ZmpJacobian, basis: &SplineBasis, progress: Jet) -> Vec<(usize, Vector2<f64>)> {
     let (range, functions) = basis.at(progress);
     let mut by_coefficient = Vec::new();
-    for (position, joint) in TRUNK.into_iter().enumerate() {
+    for (position, joint) in TRUNK_JOINTS.into_iter().enumerate() {
         for (column, function) in range.clone().zip(&functions) {
             let slope = moments.by_angle[joint] * function.value
                 + moments.by_rate[joint] * function.rate

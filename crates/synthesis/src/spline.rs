@@ -4,33 +4,36 @@ use std::ops::Range;
 
 use crate::jet::Jet;
 
-/// Pieces of polynomial that one basis function spans.
+/// Number of polynomial pieces of a basis function.
 const SPAN: usize = 6;
 
 /// The basis of splines with a given number of coefficients over progress 0 to 1.
 #[derive(Clone, Copy, Debug)]
 pub struct SplineBasis {
+    /// Number of polynomial pieces of a spline.
     pieces: usize,
 }
 
 impl SplineBasis {
+    /// The basis for splines with this number of coefficients.
+    ///
     /// # Panics
-    /// With fewer than six coefficients there is no piece.
+    /// With fewer than six coefficients.
     pub fn new(coefficients: usize) -> Self {
         assert!(coefficients >= SPAN, "a quintic spline has at least {SPAN} coefficients");
         Self { pieces: coefficients - SPAN + 1 }
     }
 
-    /// The basis functions that differ from zero at a progress, as a range of coefficients, and their values there.
+    /// The coefficients whose basis functions are not zero at a progress, and the values of these functions there.
     pub fn at(&self, progress: Jet) -> (Range<usize>, [Jet; SPAN]) {
         let position = progress * self.pieces as f64;
-        // At the very end the last piece goes on.
+        // The end belongs to the last piece.
         let piece = (position.value as usize).min(self.pieces - 1);
         let values = std::array::from_fn(|index| basis_function(position - piece as f64 + (SPAN - 1 - index) as f64));
         (piece..piece + SPAN, values)
     }
 
-    /// The spline with the given coefficients.
+    /// The value of the spline with the given coefficients at a progress.
     pub fn evaluate(&self, coefficients: &[f64], progress: Jet) -> Jet {
         let (range, values) = self.at(progress);
         coefficients[range]
@@ -40,9 +43,9 @@ impl SplineBasis {
     }
 }
 
-/// The cardinal quintic B-spline, which differs from zero between 0 and 6 (Schoenberg 1946).
+/// The cardinal quintic B-spline, which is not zero between 0 and 6 (Schoenberg 1946).
 fn basis_function(position: Jet) -> Jet {
-    // Truncated powers cancel badly on the far half: use the symmetry.
+    // Truncated powers lose digits on the far half: use the symmetry.
     let near = if position.value > 3.0 { -position + 6.0 } else { position };
     let mut sum = Jet::default();
     for (knot, weight) in [(0.0, 1.0), (1.0, -6.0), (2.0, 15.0)] {
@@ -65,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn basis_functions_add_up_to_one() {
+    fn spline_basis_functions_add_up_to_one() {
         let basis = SplineBasis::new(14);
         for step in 0..=100 {
             let one = basis.evaluate(&[1.0; 14], at(f64::from(step) / 100.0));
@@ -75,7 +78,7 @@ mod tests {
 
     /// Oracle: coefficients at the Greville points reproduce a straight line.
     #[test]
-    fn straight_lines_are_splines() {
+    fn splines_reproduce_straight_lines() {
         let basis = SplineBasis::new(14);
         let coefficients: Vec<f64> = (0..14).map(|index| (f64::from(index) - 2.0) / 9.0).collect();
         for step in 0..=100 {

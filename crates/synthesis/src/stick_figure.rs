@@ -1,38 +1,38 @@
-//! The robot as lines between points, for pictures.
+//! The robot as a stick figure, for pictures.
 
 use dynamics::Kinematics;
 use model::{Joint, Mechanism, Side};
 use nalgebra::{Point3, Vector3};
 
-/// The robot's points in one posture, in the axes and about the origin of the kinematics it was made from [m].
+/// The points of the robot in one posture (m), in the frame of the kinematics from which it is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StickFigure {
-    /// Right, then left.
+    /// The right leg, then the left one.
     pub legs: [StickLeg; 2],
-    /// Where the trunk joints meet.
+    /// Intersection of the trunk joints' axes.
     pub waist: Vector3<f64>,
-    /// Between the shoulders.
+    /// Middle between the shoulders.
     pub neck: Vector3<f64>,
     /// Top of the head.
     pub head: Vector3<f64>,
-    /// Right, then left.
+    /// The right arm, then the left one.
     pub arms: [StickArm; 2],
 }
 
-/// One leg.
+/// The points of a leg (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub struct StickLeg {
     pub hip: Vector3<f64>,
     pub knee: Vector3<f64>,
     pub ankle: Vector3<f64>,
-    /// On the sole's rear edge.
+    /// Middle of the sole's rear edge.
     pub heel: Vector3<f64>,
-    /// On the sole's front edge.
+    /// Middle of the sole's front edge.
     pub toe: Vector3<f64>,
 }
 
-/// One arm.
+/// The points of an arm (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub struct StickArm {
@@ -41,9 +41,9 @@ pub struct StickArm {
     pub hand: Vector3<f64>,
 }
 
-/// Forearm and hand against the distance of their centre of mass from the elbow (de Leva 1996).
+/// Length of forearm and hand per distance of their centre of mass from the elbow (-) (de Leva 1996).
 const HAND_BY_COM: f64 = 1.0 / 0.677;
-/// Top of the head against the distance of the centre of mass of trunk and head from the waist.
+/// Height of the head's top above the waist per height of the centre of mass of trunk and head (-).
 const HEAD_BY_COM: f64 = 2.2;
 
 impl StickFigure {

@@ -2,44 +2,44 @@
 
 use dynamics::{NewtonEuler, Tree, zmp};
 use gait::{NominalRow, NominalTable};
-use model::{Joint, JointVector, Mechanism, Mirror, Motion, PerJoint};
+use model::{Joint, JointVector, Mechanism, Mirror, Mirrored, Motion, PerJoint};
 use nalgebra::Vector3;
 
 use crate::limbs::move_limbs;
-use crate::semi_inverse::{TRUNK, balance_trunk};
-use crate::{LegPattern, Parameters, SynthesisError};
+use crate::semi_inverse::{TRUNK_JOINTS, balance_trunk};
+use crate::{LegPattern, SynthesisError, SynthesisParameters};
 
-/// A nominal half-step and what there is to say about it.
+/// A nominal half-step, with its measures.
 #[derive(Clone, Debug)]
 pub struct Synthesis {
-    /// The half-step.
+    /// The nominal half-step.
     pub table: NominalTable,
-    /// How well it came out.
-    pub report: Report,
+    /// Measures of the half-step.
+    pub report: SynthesisReport,
 }
 
-/// How well a half-step came out.
+/// Measures of a synthesized half-step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Report {
-    /// Largest |ZMP − O| of all rows [m].
+pub struct SynthesisReport {
+    /// Largest |ZMP − O| of all rows (m).
     pub residual: f64,
-    /// Gauss–Newton steps.
+    /// Number of Gauss–Newton steps.
     pub iterations: usize,
-    /// Smallest and largest angle of the trunk joint that pitches, positive forward [rad].
+    /// Smallest and largest angle of the trunk joint that pitches, positive forward (rad).
     pub trunk_pitch: (f64, f64),
-    /// Smallest and largest angle of the trunk joint that rolls, positive to the right [rad].
+    /// Smallest and largest angle of the trunk joint that rolls, positive to the right (rad).
     pub trunk_roll: (f64, f64),
-    /// Smallest knee flexion of either leg [rad].
+    /// Smallest knee flexion of either leg (rad).
     pub knee_flexion_min: f64,
-    /// Largest difference of the end from the mirrored start, of any angle [rad].
+    /// Largest difference between an angle at the end and the mirrored start (rad).
     pub swap_angle: f64,
-    /// As `swap_angle`, of any rate [rad/s].
+    /// Largest difference between a rate at the end and the mirrored start (rad/s).
     pub swap_rate: f64,
 }
 
-/// Largest |ZMP − O| that a nominal may have [m].
+/// Largest |ZMP − O| of a valid nominal (m).
 const RESIDUAL_MAX: f64 = 1e-3;
-/// Grain of the table's angles, rates and accelerations [rad, rad/s, rad/s²]: hides the last bits of what was iterated.
+/// Steps per unit to which angles, rates and accelerations are rounded: hides the last bits of iterated values.
 const GRAINS_PER_UNIT: f64 = 1e11;
 /// Collocation points per interval, so that the trunk balances between the rows as well.
 const POINTS_PER_INTERVAL: usize = 2;
@@ -47,11 +47,11 @@ const POINTS_PER_INTERVAL: usize = 2;
 /// Makes a nominal half-step. `made_by` is the command, for the table's header.
 ///
 /// # Errors
-/// [`SynthesisError`] says what stands in the way, at which row and joint, with value and limit.
+/// [`SynthesisError`] gives the reason, with row and joint, value and limit.
 pub fn synthesize(
     mechanism: &Mechanism,
     pattern: &LegPattern,
-    parameters: &Parameters,
+    parameters: &SynthesisParameters,
     made_by: &str,
 ) -> Result<Synthesis, SynthesisError> {
     parameters.check()?;
@@ -69,12 +69,12 @@ pub fn synthesize(
         trunk.apply(*progress, motion);
     }
 
-    // what that takes
+    // the torques and ground wrenches that the motion needs
     let mut newton_euler = NewtonEuler::default();
     let rows: Vec<NominalRow> = points
         .iter()
         .step_by(POINTS_PER_INTERVAL)
-        .map(|(_, motion)| nominal_row(&mut newton_euler, &tree, &on_grain(motion)))
+        .map(|(_, motion)| nominal_row(&mut newton_euler, &tree, &rounded(motion)))
         .collect();
     check_limits(mechanism, &rows)?;
     let report = report(mechanism, &mirror, &rows, trunk.iterations)?;
@@ -88,11 +88,11 @@ pub fn synthesize(
     Ok(Synthesis { table, report })
 }
 
-/// What a motion takes: gravity and the motion itself apart, so that the sum is the whole.
+/// Torques and ground wrench of a motion, separated into gravity part and dynamic part, whose sum is the whole.
 fn nominal_row(newton_euler: &mut NewtonEuler, tree: &Tree, motion: &Motion) -> NominalRow {
-    newton_euler.stand(tree, &Motion::at_rest(motion.angles));
+    newton_euler.compute_fixed_base(tree, &Motion::at_rest(motion.angles));
     let (torque_gravity, ground_gravity) = (newton_euler.torques, newton_euler.ground);
-    newton_euler.standing_under(tree, motion, 0.0);
+    newton_euler.compute_with_gravity(tree, motion, 0.0);
     NominalRow {
         motion: *motion,
         torque_gravity,
@@ -102,15 +102,15 @@ fn nominal_row(newton_euler: &mut NewtonEuler, tree: &Tree, motion: &Motion) -> 
     }
 }
 
-/// The motion to the table's grain; a zero has no sign.
-fn on_grain(motion: &Motion) -> Motion {
+/// The motion rounded to the table's grain; a zero has no sign.
+fn rounded(motion: &Motion) -> Motion {
     let round = |values: &JointVector| {
         PerJoint(values.0.map(|value| (value * GRAINS_PER_UNIT).round() / GRAINS_PER_UNIT + 0.0))
     };
     Motion { angles: round(&motion.angles), rates: round(&motion.rates), accelerations: round(&motion.accelerations) }
 }
 
-/// Refuses what the mechanism cannot do.
+/// Checks the motion against the limits of the joints.
 fn check_limits(mechanism: &Mechanism, rows: &[NominalRow]) -> Result<(), SynthesisError> {
     let last = rows.len() - 1;
     for (row, NominalRow { motion, .. }) in rows.iter().enumerate() {
@@ -129,13 +129,13 @@ fn check_limits(mechanism: &Mechanism, rows: &[NominalRow]) -> Result<(), Synthe
     Ok(())
 }
 
-/// Measures the half-step, and refuses one whose ZMP strays.
+/// Measures the half-step, and refuses one whose ZMP is too far from O.
 fn report(
     mechanism: &Mechanism,
     mirror: &Mirror,
     rows: &[NominalRow],
     iterations: usize,
-) -> Result<Report, SynthesisError> {
+) -> Result<SynthesisReport, SynthesisError> {
     let last = rows.len() - 1;
     let mut residual = 0.0_f64;
     for (row, NominalRow { ground_gravity, ground_dynamic, .. }) in rows.iter().enumerate() {
@@ -151,15 +151,17 @@ fn report(
             .map(angle)
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(min, max), angle| (min.min(angle), max.max(angle)))
     };
-    // Which trunk joint pitches is up to the axes.
+    // The axes determine which trunk joint pitches.
     let about = |axis: Vector3<f64>| {
-        range(&|row| TRUNK.iter().map(|&joint| mechanism.links[joint].axis.dot(&axis) * row.motion.angles[joint]).sum())
+        range(&|row| {
+            TRUNK_JOINTS.iter().map(|&joint| mechanism.links[joint].axis.dot(&axis) * row.motion.angles[joint]).sum()
+        })
     };
     let knees = [Joint::RightKnee, Joint::LeftKnee];
     let (knee_flexion_min, _) =
         range(&|row| knees.map(|knee| row.motion.angles[knee].abs()).into_iter().fold(f64::INFINITY, f64::min));
     let (start, end) = (rows[0].motion.mirrored(mirror), &rows[last].motion);
-    Ok(Report {
+    Ok(SynthesisReport {
         residual,
         iterations,
         trunk_pitch: about(Vector3::y()),

@@ -7,15 +7,15 @@ mod half_steps;
 
 use dynamics::{Kinematics, Tree};
 use half_steps::all;
-use model::{JointVector, Mirror, Side};
+use model::{JointVector, Mirror, Mirrored, Side};
 use nalgebra::Vector3;
-use synthesis::Parameters;
+use synthesis::SynthesisParameters;
 
-/// [rad and rad/s]
+/// (rad and rad/s)
 const SWAP_MAX: f64 = 1e-6;
 
 #[test]
-fn angles_and_rates_are_continuous_across_the_swap() {
+fn angles_and_rates_of_the_nominal_are_continuous_across_the_support_change() {
     for (label, mechanism, synthesis) in all() {
         let mirror = Mirror::new(&mechanism).expect("a symmetric robot");
         let (first, last) = (&synthesis.table.rows[0].motion, &synthesis.table.rows[60].motion);
@@ -31,7 +31,7 @@ fn centre_of_mass_ends_over_the_next_foot_as_it_began_over_this_one() {
     for (label, mechanism, synthesis) in all() {
         let tree = Tree::new(&mechanism);
         let rows = &synthesis.table.rows;
-        let [first, last] = [&rows[0], &rows[60]].map(|row| Kinematics::standing(&tree, &row.motion.angles));
+        let [first, last] = [&rows[0], &rows[60]].map(|row| Kinematics::fixed_base(&tree, &row.motion.angles));
         let next_foot = last.sole_to_world(&mechanism, Side::Left).translation.vector;
         let over_next = last.com(&tree) - next_foot;
         let mirrored = Vector3::new(over_next.x, -over_next.y, over_next.z);
@@ -41,13 +41,13 @@ fn centre_of_mass_ends_over_the_next_foot_as_it_began_over_this_one() {
 
 #[test]
 fn swing_sole_stays_level_and_above_the_ground() {
-    let clearance = Parameters::default().clearance;
+    let clearance = SynthesisParameters::default().clearance;
     for (label, mechanism, synthesis) in all() {
         let tree = Tree::new(&mechanism);
         let mut highest = 0.0_f64;
         for step in 0..=1200 {
             let motion = synthesis.table.at(f64::from(step) / 1200.0);
-            let kinematics = Kinematics::standing(&tree, &motion.angles);
+            let kinematics = Kinematics::fixed_base(&tree, &motion.angles);
             let sole = kinematics.sole_to_world(&mechanism, Side::Left);
             let pelvis = kinematics.link_to_world(model::Joint::RightHipRoll);
             assert!(sole.rotation.angle() < 1e-6 && pelvis.rotation.angle() < 1e-6, "{label}, {step}: not level");
@@ -60,12 +60,12 @@ fn swing_sole_stays_level_and_above_the_ground() {
 
 #[test]
 fn swing_sole_goes_from_step_to_step_and_rests_at_both_ends() {
-    let Parameters { step_length, .. } = Parameters::default();
+    let SynthesisParameters { step_length, .. } = SynthesisParameters::default();
     for (label, mechanism, synthesis) in all() {
         let tree = Tree::new(&mechanism);
         let width = mechanism.links[model::Joint::LeftHipRoll].origin.y;
         let sole_at = |angles: &JointVector| {
-            Kinematics::standing(&tree, angles).sole_to_world(&mechanism, Side::Left).translation.vector
+            Kinematics::fixed_base(&tree, angles).sole_to_world(&mechanism, Side::Left).translation.vector
         };
         for (row, x) in [(0, -step_length), (60, step_length)] {
             let motion = &synthesis.table.rows[row].motion;

@@ -10,9 +10,9 @@ use dynamics::{Kinematics, NewtonEuler, Tree, wrench_at_speed, zmp, zmp_at_speed
 use half_steps::{all, nominal};
 use model::{GRAVITY, Motion};
 use nalgebra::Vector2;
-use synthesis::{LegPattern, Parameters};
+use synthesis::{LegPattern, SynthesisParameters};
 
-/// [m]
+/// (m)
 const RESIDUAL_MAX: f64 = 0.2e-3;
 
 #[test]
@@ -21,7 +21,7 @@ fn zmp_stays_in_o_at_the_rows_and_between_them() {
         let tree = Tree::new(&mechanism);
         let mut newton_euler = NewtonEuler::default();
         let mut distance_at = |motion: &Motion| {
-            newton_euler.stand(&tree, motion);
+            newton_euler.compute_fixed_base(&tree, motion);
             zmp(&newton_euler.ground).expect("the robot weighs on the ground").norm()
         };
         let table = &synthesis.table;
@@ -39,7 +39,7 @@ fn gravity_and_dynamic_parts_add_up_to_inverse_dynamics() {
         let tree = Tree::new(&mechanism);
         let mut newton_euler = NewtonEuler::default();
         for row in &synthesis.table.rows {
-            newton_euler.stand(&tree, &row.motion);
+            newton_euler.compute_fixed_base(&tree, &row.motion);
             let torques = row.torque_gravity + row.torque_dynamic - newton_euler.torques;
             let ground = row.ground_gravity + row.ground_dynamic - newton_euler.ground;
             assert!(torques.max_abs() < 1e-10, "{label}: {torques:?}");
@@ -52,8 +52,8 @@ fn gravity_and_dynamic_parts_add_up_to_inverse_dynamics() {
     }
 }
 
-/// DESIGN §4.2. With M(1) = r about O, which is zero but for the residual, M(c) = (1 − c²)·M_gravity + c²·r: the formula
-/// holds to rounding once the residual's share, c²·Fz(1)/Fz(c) of it, is added.
+/// DESIGN §4.2. With M(1) = r about O, which is zero but for the residual, M(c) = (1 − c²)·M_gravity + c²·r: the
+/// formula holds to rounding once the residual's share, c²·Fz(1)/Fz(c) of it, is added.
 #[test]
 fn speed_scales_the_dynamic_part_by_its_square() {
     for (label, mechanism, synthesis) in all() {
@@ -63,7 +63,7 @@ fn speed_scales_the_dynamic_part_by_its_square() {
             for row in &synthesis.table.rows {
                 let Motion { angles, rates, accelerations } = row.motion;
                 let scaled = Motion { angles, rates: rates * speed, accelerations: accelerations * (speed * speed) };
-                newton_euler.stand(&tree, &scaled);
+                newton_euler.compute_fixed_base(&tree, &scaled);
                 let found = newton_euler.ground;
 
                 let expected = wrench_at_speed(&row.ground_gravity, &row.ground_dynamic, speed);
@@ -73,7 +73,7 @@ fn speed_scales_the_dynamic_part_by_its_square() {
                     "{label}, c {speed}: {difference:?}"
                 );
 
-                let com = Kinematics::standing(&tree, &angles).com(&tree).xy();
+                let com = Kinematics::fixed_base(&tree, &angles).com(&tree).xy();
                 let nominal = row.ground_gravity + row.ground_dynamic;
                 let residual = zmp(&nominal).expect("weight") * (speed * speed * nominal.force.z / found.force.z);
                 let expected = zmp_at_speed(com, tree.mass, row.ground_dynamic.force.z, speed) + residual;
@@ -84,19 +84,19 @@ fn speed_scales_the_dynamic_part_by_its_square() {
     }
 }
 
-/// Oracle: the linear inverted pendulum over O between the same ends (Kajita 2001). The robot differs by what its links'
-/// angular momentum takes.
+/// Oracle: the linear inverted pendulum over O between the same ends (Kajita 2001). The robot differs by what its
+/// links' angular momentum takes.
 #[test]
 fn centre_of_mass_moves_like_an_inverted_pendulum() {
     let mechanism = mechanism("mechanism.toml");
     let synthesis = nominal(&mechanism, &LegPattern::Pendulum);
     let tree = Tree::new(&mechanism);
-    let Parameters { step_length, duration, .. } = Parameters::default();
+    let SynthesisParameters { step_length, duration, .. } = SynthesisParameters::default();
     let half_width = mechanism.links[model::Joint::LeftHipRoll].origin.y / 2.0;
     let rows = &synthesis.table.rows;
     let mut worst = 0.0_f64;
     for (index, row) in rows.iter().enumerate() {
-        let com = Kinematics::standing(&tree, &row.motion.angles).com(&tree);
+        let com = Kinematics::fixed_base(&tree, &row.motion.angles).com(&tree);
         let rate = (GRAVITY / com.z).sqrt();
         let time = duration * (index as f64 / (rows.len() - 1) as f64 - 0.5);
         let end = rate * duration / 2.0;
@@ -112,7 +112,7 @@ fn centre_of_mass_moves_like_an_inverted_pendulum() {
 
 /// A statement about how the walk looks: people walk upright.
 #[test]
-fn trunk_is_nearly_upright_and_still() {
+fn the_trunk_of_the_nominal_is_nearly_upright_and_still() {
     let report = nominal(&mechanism("mechanism.toml"), &LegPattern::Pendulum).report;
     for (min, max) in [report.trunk_pitch, report.trunk_roll] {
         assert!(min.abs().max(max.abs()) < 4_f64.to_radians(), "{:.2}° to {:.2}°", min.to_degrees(), max.to_degrees());
@@ -120,9 +120,9 @@ fn trunk_is_nearly_upright_and_still() {
     }
 }
 
-/// What modifications add must fit: speed to 1.4, and a step extension of 10°, half of it in each hip and ankle.
+/// The joint limits must leave room for speed to 1.4 and a step extension of 10°, half of it in each hip and ankle.
 #[test]
-fn limits_leave_room_for_modifications() {
+fn joint_limits_leave_room_for_modifications_of_the_nominal() {
     let mechanism = mechanism("mechanism.toml");
     let synthesis = nominal(&mechanism, &LegPattern::Pendulum);
     assert!(synthesis.report.knee_flexion_min > 25_f64.to_radians(), "knees stay bent");

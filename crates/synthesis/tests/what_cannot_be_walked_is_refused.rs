@@ -6,16 +6,16 @@ mod common;
 use std::path::Path;
 
 use common::{config, mechanism};
-use synthesis::{LegPattern, Parameters, Recording, SynthesisError, synthesize};
+use synthesis::{GaitRecording, LegPattern, SynthesisError, SynthesisParameters, synthesize};
 
-fn refusal(parameters: Parameters) -> SynthesisError {
+fn refusal(parameters: SynthesisParameters) -> SynthesisError {
     let mechanism = mechanism("mechanism.toml");
     synthesize(&mechanism, &LegPattern::Pendulum, &parameters, "a test").expect_err("must be refused")
 }
 
 #[test]
-fn a_step_too_long_names_row_leg_and_lengths() {
-    let error = refusal(Parameters { step_length: 0.8, ..Parameters::default() });
+fn a_step_that_is_too_long_is_refused_with_row_leg_and_lengths() {
+    let error = refusal(SynthesisParameters { step_length: 0.8, ..SynthesisParameters::default() });
     assert!(matches!(error, SynthesisError::LegTooShort { row: 0, last: 60, .. }), "{error}");
     let message = error.to_string();
     assert!(message.contains("row 0 of 60") && message.contains("stretched leg 0.8560 m"), "{message}");
@@ -23,24 +23,28 @@ fn a_step_too_long_names_row_leg_and_lengths() {
 }
 
 #[test]
-fn a_joint_out_of_range_is_named_with_value_and_range() {
-    let error = refusal(Parameters { elbow_flexion: 115_f64.to_radians(), hip_height: 0.6, ..Parameters::default() });
+fn a_joint_out_of_range_is_refused_with_value_and_range() {
+    let error = refusal(SynthesisParameters {
+        elbow_flexion: 115_f64.to_radians(),
+        hip_height: 0.6,
+        ..SynthesisParameters::default()
+    });
     assert!(matches!(error, SynthesisError::AngleOutOfRange { .. }), "{error}");
     assert!(error.to_string().contains("its range is"), "{error}");
 }
 
 #[test]
-fn a_step_too_quick_is_refused() {
-    let error = refusal(Parameters { duration: 0.15, ..Parameters::default() });
+fn a_step_that_is_too_quick_is_refused() {
+    let error = refusal(SynthesisParameters { duration: 0.15, ..SynthesisParameters::default() });
     assert!(matches!(error, SynthesisError::RateTooHigh { .. } | SynthesisError::AngleOutOfRange { .. }), "{error}");
 }
 
 #[test]
-fn parameters_out_of_range_are_named() {
+fn synthesis_parameters_out_of_range_are_refused_by_name() {
     for (parameters, name) in [
-        (Parameters { duration: f64::NAN, ..Parameters::default() }, "duration"),
-        (Parameters { clearance: -0.05, ..Parameters::default() }, "clearance"),
-        (Parameters { intervals: 0, ..Parameters::default() }, "intervals"),
+        (SynthesisParameters { duration: f64::NAN, ..SynthesisParameters::default() }, "duration"),
+        (SynthesisParameters { clearance: -0.05, ..SynthesisParameters::default() }, "clearance"),
+        (SynthesisParameters { intervals: 0, ..SynthesisParameters::default() }, "intervals"),
     ] {
         let message = refusal(parameters).to_string();
         assert!(message.contains(name) && message.contains("must lie between"), "{message}");
@@ -48,7 +52,7 @@ fn parameters_out_of_range_are_named() {
 }
 
 #[test]
-fn a_recording_with_a_mistake_names_file_line_column_and_value() {
+fn a_mistake_in_a_gait_recording_is_reported_with_file_line_column_and_value() {
     let file = config("recorded_leg_shape.csv");
     let text = std::fs::read_to_string(&file).expect("the committed recording");
     for (right, wrong, expected) in [
@@ -66,16 +70,16 @@ fn a_recording_with_a_mistake_names_file_line_column_and_value() {
     ] {
         let broken = text.replace(right, wrong);
         assert_ne!(broken, text, "nothing to break: {right}");
-        let message = Recording::parse(&broken, Path::new("leg.csv")).expect_err("must be refused").to_string();
+        let message = GaitRecording::parse(&broken, Path::new("leg.csv")).expect_err("must be refused").to_string();
         assert!(message.contains(expected), "{message}\ndoes not say: {expected}");
     }
     let few: String = text.lines().take(10).map(|line| format!("{line}\n")).collect::<String>() + "100,20.4,4.3\n";
-    let message = Recording::parse(&few, Path::new("leg.csv")).expect_err("must be refused").to_string();
+    let message = GaitRecording::parse(&few, Path::new("leg.csv")).expect_err("must be refused").to_string();
     assert!(message.contains("there must be at least 16"), "{message}");
 }
 
 #[test]
-fn a_recording_with_the_wrong_sign_is_refused() {
+fn a_gait_recording_with_the_wrong_sign_is_refused() {
     let text = std::fs::read_to_string(config("recorded_leg_shape.csv")).expect("the committed recording");
     let backwards: String = text
         .lines()
@@ -86,9 +90,9 @@ fn a_recording_with_the_wrong_sign_is_refused() {
             _ => format!("{line}\n"),
         })
         .collect();
-    let recording = Recording::parse(&backwards, Path::new("leg.csv")).expect("strictly speaking a recording");
+    let recording = GaitRecording::parse(&backwards, Path::new("leg.csv")).expect("strictly speaking a recording");
     let pattern = LegPattern::Recorded(recording);
-    let error =
-        synthesize(&mechanism("mechanism.toml"), &pattern, &Parameters::default(), "a test").expect_err("refused");
+    let error = synthesize(&mechanism("mechanism.toml"), &pattern, &SynthesisParameters::default(), "a test")
+        .expect_err("refused");
     assert!(matches!(error, SynthesisError::RecordingGoesBackwards { .. }), "{error}");
 }

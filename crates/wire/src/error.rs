@@ -1,19 +1,20 @@
-//! What can go wrong on the way.
+//! Why a process cannot connect or exchange messages.
 
-/// Why an end could not be connected to an instance.
+/// Why a process could not connect to an instance.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ConnectError {
-    /// The instance's name cannot be part of a file name everywhere.
+    /// The instance's name cannot be part of file names.
     #[error("instance name `{name}` is not usable: {reason}; write 1 to 32 of a–z, 0–9, _ and -, e.g. `robot-1`")]
     BadName {
-        /// As it was given.
+        /// The name as it was given.
         name: String,
         /// What is wrong with it.
         reason: String,
     },
-    /// There is one controller and one plant per instance.
+    /// The instance has a controller, or plant, already: there is one of each.
     #[error(
-        "another {role} is already running on instance `{instance}`; stop it or choose another instance (--instance NAME)"
+        "another {role} is already running on instance `{instance}`; \
+         stop it or choose another instance (--instance NAME)"
     )]
     AlreadyRunning {
         /// `controller` or `plant`.
@@ -21,7 +22,7 @@ pub enum ConnectError {
         /// The instance's name.
         instance: String,
     },
-    /// Whoever is there speaks another version or means another robot.
+    /// The service was created by another version of the program, at another rate or for another robot.
     #[error(
         "service `{service}` has {key} {theirs}, this process has {key} {ours}; {}",
         match *key {
@@ -40,7 +41,7 @@ pub enum ConnectError {
         /// The value that the service was created with, or `none`.
         theirs: String,
     },
-    /// Nobody to talk to.
+    /// The instance has no controller.
     #[error(
         "no controller is running on instance `{instance}`; start one with `halfstep controller --instance {instance}`"
     )]
@@ -48,23 +49,25 @@ pub enum ConnectError {
         /// The instance's name.
         instance: String,
     },
-    /// The other side has outlived too many killed partners.
+    /// A reader has outlived more killed writers than the service has places for.
     #[error(
-        "service `{service}` is used up: {} processes that wrote to it were killed while its reader went on; restart the reader too",
-        crate::NEWEST_SLOTS
+        "service `{service}` is used up: {writers} processes that wrote to it were killed while its reader went on; \
+         restart the reader too"
     )]
     UsedUp {
         /// The service's full name.
         service: String,
+        /// NumberType of writers that were killed.
+        writers: u64,
     },
     /// The memory of the instance could not be used.
     #[error("cannot {action} `{what}`: {cause}{}", hint(cause))]
     Memory {
-        /// `open`, `create`, …
+        /// What was tried: `open`, `create`, …
         action: &'static str,
-        /// A service or a path.
+        /// Name of the service, or path of the file.
         what: String,
-        /// In the words of whoever refused.
+        /// The reason as given by iceoryx2 or the operating system.
         cause: String,
     },
 }
@@ -73,41 +76,41 @@ fn hint(cause: &str) -> &'static str {
     if cause.contains("Permission") { " (all processes of an instance must run as the same user)" } else { "" }
 }
 
-/// Why a request was not answered.
+/// Why a request got no reply.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum AskError {
-    /// Nobody to talk to.
+pub enum RequestError {
+    /// The controller has disconnected.
     #[error("no controller is running on instance `{instance}` any more; the request was not answered")]
     NoController {
         /// The instance's name.
         instance: String,
     },
-    /// The controller looked at the request and dropped it, which it never should.
+    /// The controller dropped the request without a reply: a bug in the controller.
     #[error("the controller dropped the request without an answer")]
     Dropped,
-    /// Too many questions at once.
+    /// Too many requests of this operator are unanswered.
     #[error("{limit} requests are unanswered already; read the answers before asking more")]
     TooMany {
-        /// The limit for one operator.
+        /// Most unanswered requests of one operator.
         limit: usize,
     },
-    /// The controller is there but has not answered.
+    /// The controller is running but has not replied in time.
     #[error("the controller did not answer within {seconds} s")]
     TimedOut {
-        /// How long was waited [s], as text.
+        /// The timeout (s), as text.
         seconds: String,
     },
     /// The shared memory failed.
     #[error(transparent)]
-    Wire(#[from] WireFault),
+    Transport(#[from] TransportError),
 }
 
 /// The shared memory failed while connected: it was removed by force, or memory has run out.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("cannot {action}: {cause}")]
-pub struct WireFault {
-    /// What was tried.
+pub struct TransportError {
+    /// What was tried: `send a request`, …
     pub action: &'static str,
-    /// In the words of whoever refused.
+    /// The reason as given by iceoryx2.
     pub cause: String,
 }

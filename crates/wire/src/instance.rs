@@ -1,4 +1,4 @@
-//! An instance: one robot's name and the memory that its processes share.
+//! An instance: the name of one robot, and the memory that its processes share.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -10,13 +10,13 @@ use iceoryx2::prelude::{
     ServiceName, SignalHandlingMode, set_log_level_from_env_or,
 };
 
-use crate::turn::Turn;
-use crate::{ConnectError, Ipc, PROTOCOL, RATE_HZ};
+use crate::connect_lock::ConnectLock;
+use crate::{ConnectError, DEFAULT_RATE_HZ, Ipc, PROTOCOL};
 
-/// Where POSIX shared memory lies on Linux.
+/// Folder of POSIX shared memory on Linux.
 const SHARED_MEMORY: &str = "/dev/shm";
 
-/// A name of 1 to 32 of `a`–`z`, `0`–`9`, `_` and `-`.
+/// Name of an instance: 1 to 32 characters of `a`–`z`, `0`–`9`, `_` and `-`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct InstanceName(String);
 
@@ -48,7 +48,7 @@ impl fmt::Display for InstanceName {
     }
 }
 
-/// One robot: its name and where its memory lies.
+/// One robot: its name, and where its shared memory lies.
 #[derive(Clone, Debug)]
 pub struct Instance {
     name: InstanceName,
@@ -68,7 +68,7 @@ impl Instance {
         let user = rustix::process::getuid().as_raw();
         let root = std::env::temp_dir().join(format!("halfstep-{user}")).join(name.as_str());
 
-        // Made here and not read from a file: all processes of an instance must agree, wherever they were started.
+        // Not read from a file: all processes of an instance must agree, wherever they were started.
         let mut config = Config::default();
         let no_path = |cause: &dyn fmt::Debug| ConnectError::Memory {
             action: "use the folder",
@@ -79,15 +79,16 @@ impl Instance {
         config.global.prefix =
             FileName::new(format!("halfstep.{name}.").as_bytes()).map_err(|cause| no_path(&cause))?;
         config.global.set_root_path(&Path::new(root.as_os_str().as_encoded_bytes()).map_err(|cause| no_path(&cause))?);
-        Ok(Self { name, protocol: PROTOCOL, rate_hz: RATE_HZ, root, config })
+        Ok(Self { name, protocol: PROTOCOL, rate_hz: DEFAULT_RATE_HZ, root, config })
     }
 
-    /// The same instance for a process that speaks another version than [`PROTOCOL`].
+    /// The same instance for a process with another protocol version than [`PROTOCOL`].
     pub fn with_protocol(self, protocol: u32) -> Self {
         Self { protocol, ..self }
     }
 
-    /// The same instance for a controller or plant whose loop goes at another rate than [`RATE_HZ`] [Hz].
+    /// The same instance for a controller or plant with `rate_hz` control periods in a second, instead of
+    /// [`DEFAULT_RATE_HZ`].
     pub fn with_rate_hz(self, rate_hz: u32) -> Self {
         Self { rate_hz, ..self }
     }
@@ -97,38 +98,39 @@ impl Instance {
         &self.name
     }
 
-    /// Removes everything that processes which are gone have left behind, dead ones and, of a clean exit, the last few
-    /// bytes. While any process is connected only the dead are cleaned up after. Not for the control loop.
+    /// Removes everything that former processes have left behind: killed ones much, cleanly exited ones a few bytes.
+    /// While any process is connected, only the leftovers of dead processes are removed. Too slow for the control loop.
     ///
     /// # Errors
     /// The folder of the instance cannot be read or removed.
     pub fn remove_leftovers(&self) -> Result<(), ConnectError> {
-        let _turn = self.turn()?;
-        let mut somebody_is_there = false;
+        let _lock = self.connect_lock()?;
+        let mut in_use = false;
         Node::<Ipc>::list(&self.config, |state| {
             match state {
-                NodeState::Alive(_) | NodeState::Inaccessible(_) => somebody_is_there = true,
-                // If it fails, its files go below or with the next one who tries.
+                NodeState::Alive(_) | NodeState::Inaccessible(_) => in_use = true,
+                // If it fails, the files are removed below or by the next attempt.
                 NodeState::Dead(dead) => drop(dead.try_remove_stale_resources()),
-                // It was killed while it joined.
+                // The process was killed while it connected.
                 NodeState::Undefined(_) => {}
             }
             CallbackProgression::Continue
         })
-        .map_err(|cause| self.memory("list the processes of", cause))?;
-        if somebody_is_there {
+        .map_err(|cause| self.memory_error("list the processes of", cause))?;
+        if in_use {
             return Ok(());
         }
 
         let prefix = self.config.global.prefix.to_string();
-        let files = std::fs::read_dir(SHARED_MEMORY).map_err(|cause| self.memory("read the files of", cause))?;
+        let files = std::fs::read_dir(SHARED_MEMORY).map_err(|cause| self.memory_error("read the files of", cause))?;
         for file in files.flatten().filter(|file| file.file_name().as_encoded_bytes().starts_with(prefix.as_bytes())) {
-            gone(std::fs::remove_file(file.path())).map_err(|cause| self.memory("remove the files of", cause))?;
+            removed(std::fs::remove_file(file.path()))
+                .map_err(|cause| self.memory_error("remove the files of", cause))?;
         }
-        gone(std::fs::remove_dir_all(&self.root)).map_err(|cause| self.memory("remove the files of", cause))
+        removed(std::fs::remove_dir_all(&self.root)).map_err(|cause| self.memory_error("remove the files of", cause))
     }
 
-    /// Removes the leftovers when the guard is dropped: for tests, and for instances with a name used once.
+    /// A guard that removes the leftovers when it is dropped: for tests, and for instance names that are used once.
     pub fn leftovers(&self) -> Leftovers {
         Leftovers(self.clone())
     }
@@ -145,21 +147,21 @@ impl Instance {
         &self.config
     }
 
-    /// Waits for the turn to connect.
-    pub(crate) fn turn(&self) -> Result<Turn, ConnectError> {
-        quiet();
-        Turn::take(&self.root).map_err(|cause| self.memory("connect to the instance", cause))
+    /// Waits until this process may connect.
+    pub(crate) fn connect_lock(&self) -> Result<ConnectLock, ConnectError> {
+        silence_log();
+        ConnectLock::acquire(&self.root).map_err(|cause| self.memory_error("connect to the instance", cause))
     }
 
-    /// Joins the instance, and cleans up after processes that died in it. Only whose turn it is may do so.
-    pub(crate) fn join(&self, _turn: &Turn, role: &str) -> Result<Node<Ipc>, ConnectError> {
+    /// Connects to the instance, and cleans up after processes that died in it. Needs the lock.
+    pub(crate) fn open_node(&self, _lock: &ConnectLock, role: &str) -> Result<Node<Ipc>, ConnectError> {
         NodeBuilder::new()
             .name(&NodeName::new(role).expect("a role is a short word"))
             .config(&self.config)
             // Signals belong to the process, not to a library.
             .signal_handling_mode(SignalHandlingMode::Disabled)
             .create()
-            .map_err(|cause| self.memory("join the instance", cause))
+            .map_err(|cause| self.memory_error("join the instance", cause))
     }
 
     pub(crate) fn service_name(&self, service: &str) -> ServiceName {
@@ -171,7 +173,7 @@ impl Instance {
         ConnectError::NoController { instance: self.name.to_string() }
     }
 
-    fn memory(&self, action: &'static str, cause: impl fmt::Display) -> ConnectError {
+    fn memory_error(&self, action: &'static str, cause: impl fmt::Display) -> ConnectError {
         ConnectError::Memory { action, what: self.name.to_string(), cause: cause.to_string() }
     }
 }
@@ -183,21 +185,21 @@ pub struct Leftovers(Instance);
 
 impl Drop for Leftovers {
     fn drop(&mut self) {
-        // Nobody can be told, and leftovers do no harm but take space.
+        // A destructor cannot return the error; leftovers only take space.
         let _ = self.0.remove_leftovers();
     }
 }
 
-/// Something that is already gone needs no removal.
-fn gone(result: std::io::Result<()>) -> std::io::Result<()> {
+/// The result of a removal: what is already gone needs none.
+fn removed(result: std::io::Result<()>) -> std::io::Result<()> {
     match result {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(()),
         result => result,
     }
 }
 
-/// iceoryx2 comments on every refusal, which we report ourselves; `IOX2_LOG_LEVEL` makes it talk.
-fn quiet() {
+/// Silences iceoryx2, which logs every refusal that we report ourselves; `IOX2_LOG_LEVEL` overrides it.
+fn silence_log() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| set_log_level_from_env_or(LogLevel::Fatal));
 }

@@ -1,78 +1,85 @@
-//! What crosses the process boundary; the only crate that names iceoryx2.
+//! What crosses the process boundary: messages in shared memory, the services that carry them, and the ports of each
+//! process. Beside the benchmarks this is the only crate that names iceoryx2.
 //!
-//! A robot walks by four services. Their names begin with `halfstep/<instance>/`, so that many robots and many tests
-//! live side by side:
+//! The processes of a robot exchange messages by four services. Their names begin with `halfstep/<instance>/`, so that
+//! several robots and tests can run at the same time:
 //!
-//! | service | from → to | message | pattern | quality |
-//! |---|---|---|---|---|
-//! | `setpoint` | controller → plant | [`SetpointMessage`] | blackboard | one writer, 16 readers, newest wins |
-//! | `measurement` | plant → controller | [`MeasurementMessage`] | blackboard | one writer, 16 readers, newest wins |
-//! | `request` | operator → controller and back | [`RequestMessage`], [`ReplyMessage`] | request–response | one server, 8 clients, 256 requests of each unanswered at a time |
-//! | `report` | controller → anyone | [`ReportMessage`] | publish–subscribe | one publisher, 16 subscribers, 64 reports kept for each, the oldest gives way |
+//! | service | from → to | message | pattern |
+//! |---|---|---|---|
+//! | `setpoint` | controller → plant | [`SetpointMessage`] | blackboard |
+//! | `measurement` | plant → controller | [`MeasurementMessage`] | blackboard |
+//! | `request` | operator → controller and back | [`RequestMessage`], [`ReplyMessage`] | request–response |
+//! | `report` | controller → anyone | [`ReportMessage`] | publish–subscribe |
 //!
-//! # Who is who
+//! A blackboard has one writer and up to 16 readers; only the latest message counts. The request service has one server
+//! and up to 8 clients, each with up to 256 unanswered requests. The report service has one publisher and up to 16
+//! subscribers; the 64 latest reports are kept for each.
+//!
+//! # Terms
 //!
 //! * An **instance** ([`Instance`]) is one robot: a name, and the memory that its processes share.
-//! * An **end** is what a process holds of an instance: [`ControllerEnd`] and [`PlantEnd`], of which there is one each,
-//!   and any number of [`OperatorEnd`]s, who ask, and [`ObserverEnd`]s, who only look. An end's parts are public fields
-//!   and may each be moved to another thread.
-//! * The **tick** of a message is the writer's count of periods. [`NOTHING_YET`] stands where nothing was written, and
-//!   readers turn it into `None`. A reader that wants to know whether a message is new compares its tick with the last
-//!   one's, for *inequality*: a restarted writer counts from 0 again. The last message of a writer that has gone stays
-//!   until another one writes; that its tick stands still is the only sign.
-//! * The **protocol** ([`PROTOCOL`]) is the version of all layouts and meanings; the **mechanism** is the fingerprint of
-//!   the robot that joint numbers refer to; the **rate** is the periods in a second, the unit of all ticks. They are
-//!   attributes of the services (keys `protocol`, `mechanism` and `rate_hz`, as decimal, `0x…` and decimal text). All ends
-//!   compare the protocol. Controller and plant also compare the rate, and the mechanism on `setpoint` and `measurement`,
-//!   which are the services that carry joint numbers. Operators and observers are told the rate.
+//! * **Ports** are what a process connects with: [`ControllerPorts`] and [`PlantPorts`], of which an instance has one
+//!   each, and any number of [`OperatorPorts`], which send requests, and [`ObserverPorts`], which receive reports. The
+//!   ports of a process are public fields; each may be moved to another thread.
+//! * The **tick** of a message is the writer's count of control periods. [`NEVER_WRITTEN`] marks a message that was
+//!   never written; readers turn it into `None`. To find out whether a message is new, compare its tick with the last
+//!   one for *inequality*: a restarted writer counts from 0 again. The last message of a writer that has disconnected
+//!   stays until another one writes; the only sign is that its tick no longer changes.
+//! * The **protocol** ([`PROTOCOL`]) is the version of all layouts and meanings; the **mechanism** is the fingerprint
+//!   of the robot that joint numbers refer to; the **rate** is the number of control periods in a second, the unit of
+//!   all ticks. They are attributes of the services (keys `protocol`, `mechanism` and `rate_hz`, as decimal, `0x…` and
+//!   decimal text). All processes compare the protocol. Controller and plant also compare the rate, and the mechanism
+//!   on `setpoint` and `measurement`, which are the services that carry joint numbers. Observers can read the rate.
 //!
-//! # Coming and going
+//! # Connecting and disconnecting
 //!
-//! Controller and plant start in either order: whoever comes first creates setpoint and measurement. Either may be
-//! killed and started again while the other goes on. Each kind of writer exists once: the second controller (or plant)
-//! of an instance is refused. Operators and observers need a controller that is there.
+//! Controller and plant start in either order: the first one creates the setpoint and measurement services. Either may
+//! be killed and restarted while the other keeps running. There is one writer of each kind: a second controller (or
+//! plant) of an instance is refused. Operators and observers need a running controller.
 //!
-//! A writer that dies without a goodbye leaves its place on the blackboard taken for ever, so that a blackboard has
-//! [`NEWEST_SLOTS`] places: keys 0, 1, 2, … of type `u64`, each with one message. A writer takes the first free
-//! one, a reader reads the highest one that was ever written. All of them are free again once both sides have gone.
+//! A writer that is killed leaves its slot on the blackboard occupied for ever. Therefore a blackboard has
+//! [`WRITER_SLOTS`] slots: keys 0, 1, 2, … of type `u64`, each with one message. A writer takes the first free slot, a
+//! reader reads the highest slot that was ever written. All slots are free again once both sides have disconnected.
 //!
 //! Files lie in `<temporary folder>/halfstep-<user id>/<instance>/` and `/dev/shm/halfstep.<instance>.*`, readable by
-//! the user alone. A clean exit leaves a few bytes there, a kill more; the next start cleans up after the dead, and
-//! [`Instance::remove_leftovers`] removes everything once nobody is there. Processes connect one at a time, so that one
-//! that is killed while it connects leaves nothing half made that others would wait for.
+//! the user alone. A clean exit leaves a few bytes there, a kill more; the next start cleans up after dead processes,
+//! and [`Instance::remove_leftovers`] removes everything once no process is connected. Processes connect one at a time,
+//! so that a process that is killed while connecting leaves no incomplete service for others to wait for.
 //!
 //! # Costs
 //!
-//! Writing and reading setpoint and measurement neither allocates nor enters the kernel. Publishing a report, answering
-//! and asking allocate; a peer that comes or goes costs the next of these calls some 0.1 ms. Do them beside the loop.
+//! Writing and reading setpoint and measurement neither allocates nor enters the kernel. Publishing a report, sending a
+//! request and replying allocate; after a peer connects or disconnects, the next of these calls takes about 0.1 ms
+//! longer. Do not call them in the control loop.
 
-mod agreement;
-mod end;
+mod connect_lock;
 mod error;
 mod instance;
+mod latest;
 mod layout;
 mod message;
-mod newest;
+mod ports;
+pub mod python;
 mod report;
 mod request;
-mod turn;
+mod service_contract;
 
-pub use end::{ControllerEnd, ObserverEnd, OperatorEnd, PlantEnd};
-pub use error::{AskError, ConnectError, WireFault};
+pub use error::{ConnectError, RequestError, TransportError};
 pub use instance::{Instance, InstanceName, Leftovers};
+pub use latest::{LatestReader, LatestWriter, WRITER_SLOTS};
 #[doc(hidden)]
 pub use layout::kind;
-pub use layout::{Field, FieldValue, LaidOut, Layout, Number, layouts};
+pub use layout::{Field, FieldValue, Layout, NumberType, WireLayout, layouts};
 pub use message::*;
-pub use newest::{NEWEST_SLOTS, NewestReader, NewestWriter};
+pub use ports::{ControllerPorts, ObserverPorts, OperatorPorts, PlantPorts};
 pub use report::{ReportPublisher, ReportSubscriber};
-pub use request::{Answer, RequestClient, RequestServer, Waiting};
+pub use request::{PendingReply, RequestClient, RequestServer, Responder};
 
-/// The version of all layouts and meanings. Ends of different versions refuse to talk.
+/// Version of all layouts and meanings. Processes of different versions refuse to connect.
 pub const PROTOCOL: u32 = 3;
 
-/// Periods in a second, unless [`Instance::with_rate_hz`] says otherwise [Hz].
-pub const RATE_HZ: u32 = 1000;
+/// Control rate of an instance unless [`Instance::with_rate_hz`] sets another one (Hz).
+pub const DEFAULT_RATE_HZ: u32 = 1000;
 
-/// The kind of iceoryx2 ports: between processes, and movable between threads.
+/// The kind of iceoryx2 service: between processes, and movable between threads.
 type Ipc = iceoryx2::prelude::ipc_threadsafe::Service;

@@ -1,4 +1,4 @@
-//! Reports: the controller tells, once per period, whoever listens.
+//! The report service: the controller publishes its state once per period, and any process may subscribe.
 
 use std::fmt;
 
@@ -8,23 +8,26 @@ use iceoryx2::prelude::{BackpressureStrategy, MessagingPattern, Node};
 use iceoryx2::service::builder::publish_subscribe::Builder;
 use iceoryx2::service::port_factory::publish_subscribe::PortFactory;
 
-use crate::agreement::{Agreement, rate_hz};
-use crate::{ConnectError, Instance, Ipc, ReportMessage, WireFault};
+use crate::service_contract::{ServiceContract, rate_hz};
+use crate::{ConnectError, Instance, Ipc, ReportMessage, TransportError};
 
+/// Most subscribers at a time.
 const MAX_SUBSCRIBERS: usize = 16;
+/// Most processes that may use the service at a time.
 const MAX_NODES: usize = 24;
+/// Reports kept for each subscriber until it reads them.
 const BUFFER: usize = 64;
 
 type Service = PortFactory<Ipc, ReportMessage, ()>;
 
-fn agreement(instance: &Instance) -> Agreement<'_> {
-    Agreement::new(instance, "report", MessagingPattern::PublishSubscribe, None)
+fn contract(instance: &Instance) -> ServiceContract<'_> {
+    ServiceContract::new(instance, "report", MessagingPattern::PublishSubscribe, None)
 }
 
-fn builder(agreement: &Agreement, node: &Node<Ipc>) -> Builder<ReportMessage, (), Ipc> {
-    node.service_builder(&agreement.name)
+fn builder(contract: &ServiceContract, node: &Node<Ipc>) -> Builder<ReportMessage, (), Ipc> {
+    node.service_builder(&contract.name)
         .publish_subscribe::<ReportMessage>()
-        // A listener that sleeps loses the oldest reports and holds up nobody.
+        // A slow subscriber loses the oldest reports and never blocks the publisher.
         .enable_safe_overflow(true)
         .subscriber_max_buffer_size(BUFFER)
         .history_size(0)
@@ -33,37 +36,37 @@ fn builder(agreement: &Agreement, node: &Node<Ipc>) -> Builder<ReportMessage, ()
         .max_nodes(MAX_NODES)
 }
 
-/// The controller's side: tells what happened in a period.
+/// The controller's end of the report service.
 pub struct ReportPublisher {
     publisher: Publisher<Ipc, ReportMessage, ()>,
 }
 
 impl ReportPublisher {
     pub(crate) fn connect(instance: &Instance, node: &Node<Ipc>) -> Result<Self, ConnectError> {
-        let agreement = agreement(instance).at_rate();
-        let service: Service = agreement.open_or_create(
-            || builder(&agreement, node).open(),
-            |terms| builder(&agreement, node).create_with_attributes(terms),
+        let contract = contract(instance).at_rate();
+        let service: Service = contract.open_or_create(
+            || builder(&contract, node).open(),
+            |attributes| builder(&contract, node).create_with_attributes(attributes),
         )?;
         let taken = PublisherCreateError::ExceedsMaxSupportedPublishers;
         let create = || service.publisher_builder().backpressure_strategy(BackpressureStrategy::DiscardData).create();
-        let publisher = agreement.only_one("controller", taken, &service, create)?;
+        let publisher = contract.claim("controller", taken, &service, create)?;
         Ok(Self { publisher })
     }
 
-    /// Tells everyone who listens, and says how many those were. Allocates once, and more when somebody comes or goes:
-    /// call it beside the loop.
+    /// Sends a report to all subscribers and returns their number. The first call allocates, and so does the next call
+    /// after a subscriber connects or disconnects: do not call it in the control loop.
     ///
     /// # Errors
-    /// The memory of a listener could not be reached. Later calls may succeed.
-    pub fn publish(&mut self, report: &ReportMessage) -> Result<usize, WireFault> {
-        let fault = |cause: &dyn fmt::Display| WireFault { action: "publish a report", cause: cause.to_string() };
+    /// The memory of a subscriber could not be reached. Later calls may succeed.
+    pub fn publish(&mut self, report: &ReportMessage) -> Result<usize, TransportError> {
+        let fault = |cause: &dyn fmt::Display| TransportError { action: "publish a report", cause: cause.to_string() };
         let sample = self.publisher.loan_uninit().map_err(|cause| fault(&cause))?;
         sample.write_payload(*report).send().map_err(|cause| fault(&cause))
     }
 }
 
-/// A listener's side.
+/// An observer's end of the report service.
 pub struct ReportSubscriber {
     subscriber: Subscriber<Ipc, ReportMessage, ()>,
     rate_hz: u32,
@@ -71,27 +74,27 @@ pub struct ReportSubscriber {
 
 impl ReportSubscriber {
     pub(crate) fn connect(instance: &Instance, node: &Node<Ipc>) -> Result<Self, ConnectError> {
-        let agreement = agreement(instance);
-        let service: Service = agreement.open(|| builder(&agreement, node).open())?;
+        let contract = contract(instance);
+        let service: Service = contract.open(|| builder(&contract, node).open())?;
         let subscriber =
-            service.subscriber_builder().create().map_err(|cause| agreement.memory("connect to", cause))?;
+            service.subscriber_builder().create().map_err(|cause| contract.memory_error("connect to", cause))?;
         Ok(Self { subscriber, rate_hz: rate_hz(&service) })
     }
 
-    /// Periods in a second, the unit of the reports' ticks [Hz].
+    /// Control rate of the instance (Hz): the reports' ticks in a second.
     pub fn rate_hz(&self) -> u32 {
         self.rate_hz
     }
 
-    /// The oldest report that has not been read; `None` when there is no new one. A gap in the ticks means that the
-    /// listener was too slow.
+    /// The oldest report that has not been read; `None` when there is no new one. A gap in the ticks means that reports
+    /// were lost because they were not read in time.
     ///
     /// # Errors
     /// The memory of the controller could not be reached. Later calls may succeed.
-    pub fn next_report(&mut self) -> Result<Option<ReportMessage>, WireFault> {
+    pub fn next_report(&mut self) -> Result<Option<ReportMessage>, TransportError> {
         match self.subscriber.receive() {
             Ok(sample) => Ok(sample.map(|sample| *sample)),
-            Err(cause) => Err(WireFault { action: "receive a report", cause: cause.to_string() }),
+            Err(cause) => Err(TransportError { action: "receive a report", cause: cause.to_string() }),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Requests and their replies: several operators ask, the one controller answers each question once.
+//! The request service: operators send requests, and the controller replies to each of them once.
 
 use std::fmt;
 use std::time::{Duration, Instant};
@@ -12,28 +12,31 @@ use iceoryx2::service::builder::request_response::Builder;
 use iceoryx2::service::port_factory::request_response::PortFactory;
 use iceoryx2::service::port_factory::server::ServerCreateError;
 
-use crate::agreement::Agreement;
-use crate::{AskError, ConnectError, Instance, Ipc, ReplyMessage, RequestMessage, WireFault};
+use crate::service_contract::ServiceContract;
+use crate::{ConnectError, Instance, Ipc, ReplyMessage, RequestError, RequestMessage, TransportError};
 
+/// Most operators at a time.
 const MAX_CLIENTS: usize = 8;
+/// Most processes that may use the service at a time.
 const MAX_NODES: usize = 24;
+/// Most unanswered requests of one operator.
 const MAX_UNANSWERED: usize = 256;
 
-/// How often an operator who waits looks whether the answer has come.
-const GLANCE: Duration = Duration::from_millis(1);
-/// How often it looks whether the controller is still alive, which costs more.
-const HEARTBEAT: Duration = Duration::from_millis(200);
+/// Time between two checks of a waiting operator for its reply.
+const POLL_INTERVAL: Duration = Duration::from_millis(1);
+/// Time between two checks of a waiting operator whether the controller is still alive, which cost more.
+const LIVENESS_INTERVAL: Duration = Duration::from_millis(200);
 
 type Service = PortFactory<Ipc, RequestMessage, (), ReplyMessage, ()>;
 
-fn agreement(instance: &Instance) -> Agreement<'_> {
-    Agreement::new(instance, "request", MessagingPattern::RequestResponse, None)
+fn contract(instance: &Instance) -> ServiceContract<'_> {
+    ServiceContract::new(instance, "request", MessagingPattern::RequestResponse, None)
 }
 
-fn builder(agreement: &Agreement, node: &Node<Ipc>) -> Builder<RequestMessage, (), ReplyMessage, (), Ipc> {
-    node.service_builder(&agreement.name)
+fn builder(contract: &ServiceContract, node: &Node<Ipc>) -> Builder<RequestMessage, (), ReplyMessage, (), Ipc> {
+    node.service_builder(&contract.name)
         .request_response::<RequestMessage, ReplyMessage>()
-        // A question that was sent is not pushed out by a later one.
+        // A later request never displaces one that was sent.
         .enable_safe_overflow_for_requests(false)
         .enable_safe_overflow_for_responses(false)
         .enable_fire_and_forget_requests(false)
@@ -45,7 +48,7 @@ fn builder(agreement: &Agreement, node: &Node<Ipc>) -> Builder<RequestMessage, (
         .max_nodes(MAX_NODES)
 }
 
-/// The controller's side: takes requests and answers them.
+/// The controller's end of the request service.
 #[derive(Debug)]
 pub struct RequestServer {
     server: Server<Ipc, RequestMessage, (), ReplyMessage, ()>,
@@ -53,52 +56,52 @@ pub struct RequestServer {
 
 impl RequestServer {
     pub(crate) fn connect(instance: &Instance, node: &Node<Ipc>) -> Result<Self, ConnectError> {
-        let agreement = agreement(instance).at_rate();
-        let service: Service = agreement.open_or_create(
-            || builder(&agreement, node).open(),
-            |terms| builder(&agreement, node).create_with_attributes(terms),
+        let contract = contract(instance).at_rate();
+        let service: Service = contract.open_or_create(
+            || builder(&contract, node).open(),
+            |attributes| builder(&contract, node).create_with_attributes(attributes),
         )?;
         let taken = ServerCreateError::ExceedsMaxSupportedServers;
         let create = || {
-            // An operator that does not read must not hold up the controller.
+            // An operator that does not read its replies must not block the controller.
             service.server_builder().backpressure_strategy(BackpressureStrategy::DiscardData).create()
         };
-        let server = agreement.only_one("controller", taken, &service, create)?;
+        let server = contract.claim("controller", taken, &service, create)?;
         Ok(Self { server })
     }
 
-    /// The next request, first come first served, and the means to answer it; `None` if nobody asks.
+    /// The next request, in order of arrival, and the means to reply to it; `None` if there is none.
     ///
     /// # Errors
     /// The memory of an operator could not be reached. Later calls may succeed.
-    pub fn next_request(&mut self) -> Result<Option<(RequestMessage, Answer)>, WireFault> {
+    pub fn next_request(&mut self) -> Result<Option<(RequestMessage, Responder)>, TransportError> {
         match self.server.receive() {
-            Ok(request) => Ok(request.map(|request| (*request, Answer { request }))),
-            Err(cause) => Err(WireFault { action: "receive a request", cause: cause.to_string() }),
+            Ok(request) => Ok(request.map(|request| (*request, Responder { request }))),
+            Err(cause) => Err(TransportError { action: "receive a request", cause: cause.to_string() }),
         }
     }
 }
 
-/// The means to answer one request. It may be kept, for instance until the request takes effect; dropped without an
-/// answer, the operator is told so.
-pub struct Answer {
+/// The means to reply to one request. It may be kept, for instance until the request takes effect. If it is dropped
+/// without a reply, the operator gets [`RequestError::Dropped`].
+pub struct Responder {
     request: ActiveRequest<Ipc, RequestMessage, (), ReplyMessage, ()>,
 }
 
-impl Answer {
-    /// Sends the answer. `false` if it could not be delivered: the operator has left.
+impl Responder {
+    /// Sends the reply; `false` if it could not be delivered because the operator has disconnected.
     pub fn reply(self, reply: &ReplyMessage) -> bool {
         self.request.send_copy(*reply).is_ok()
     }
 }
 
-impl fmt::Debug for Answer {
+impl fmt::Debug for Responder {
     fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
-        formatter.debug_struct("Answer").finish_non_exhaustive()
+        formatter.debug_struct("Responder").finish_non_exhaustive()
     }
 }
 
-/// An operator's side: asks and is answered.
+/// An operator's end of the request service.
 #[derive(Debug)]
 pub struct RequestClient {
     instance: String,
@@ -108,103 +111,103 @@ pub struct RequestClient {
 
 impl RequestClient {
     pub(crate) fn connect(instance: &Instance, node: &Node<Ipc>) -> Result<Self, ConnectError> {
-        let agreement = agreement(instance);
-        let service: Service = agreement.open(|| builder(&agreement, node).open())?;
+        let contract = contract(instance);
+        let service: Service = contract.open(|| builder(&contract, node).open())?;
         let client = service
             .client_builder()
             .backpressure_strategy(BackpressureStrategy::DiscardData)
             .create()
-            .map_err(|cause| agreement.memory("connect to", cause))?;
+            .map_err(|cause| contract.memory_error("connect to", cause))?;
         let client = Self { instance: instance.name().to_string(), service, client };
         if client.controller_is_there() { Ok(client) } else { Err(instance.no_controller()) }
     }
 
-    /// Sends a request without waiting for the answer. Up to 256 may be waiting.
+    /// Sends a request without waiting for the reply. Up to 256 requests may be unanswered at a time.
     ///
     /// # Errors
-    /// No controller is there, too many requests are waiting, or the shared memory failed.
-    pub fn send(&self, request: &RequestMessage) -> Result<Waiting, AskError> {
+    /// No controller is running, too many requests are unanswered, or the shared memory failed.
+    pub fn send(&self, request: &RequestMessage) -> Result<PendingReply, RequestError> {
         let response = self.client.send_copy(*request).map_err(|cause| match cause {
-            RequestSendError::ExceedsMaxActiveRequests => AskError::TooMany { limit: MAX_UNANSWERED },
-            cause => WireFault { action: "send a request", cause: cause.to_string() }.into(),
+            RequestSendError::ExceedsMaxActiveRequests => RequestError::TooMany { limit: MAX_UNANSWERED },
+            cause => TransportError { action: "send a request", cause: cause.to_string() }.into(),
         })?;
         if response.number_of_server_connections() == 0 {
             return Err(self.no_controller());
         }
-        Ok(Waiting { response })
+        Ok(PendingReply { response })
     }
 
-    /// Sleeps until the answer to a request is there.
+    /// Blocks until the reply to a request has arrived.
     ///
     /// # Errors
-    /// The controller is gone, dropped the request, or takes longer than `timeout`.
-    pub fn wait(&self, waiting: &Waiting, timeout: Duration) -> Result<ReplyMessage, AskError> {
+    /// The controller has disconnected, dropped the request, or takes longer than `timeout`.
+    pub fn wait(&self, pending: &PendingReply, timeout: Duration) -> Result<ReplyMessage, RequestError> {
         let began = Instant::now();
-        let mut heartbeats = 0;
+        let mut liveness_checks = 0;
         loop {
-            match waiting.poll() {
+            match pending.poll() {
                 Ok(Some(reply)) => return Ok(reply),
                 Ok(None) => {}
-                Err(AskError::Dropped) if !self.controller_is_there() => return Err(self.no_controller()),
+                Err(RequestError::Dropped) if !self.controller_is_there() => return Err(self.no_controller()),
                 Err(error) => return Err(error),
             }
             let waited = began.elapsed();
-            if waited >= HEARTBEAT * heartbeats {
-                heartbeats += 1;
+            if waited >= LIVENESS_INTERVAL * liveness_checks {
+                liveness_checks += 1;
                 if !self.controller_is_there() {
                     return Err(self.no_controller());
                 }
             }
             if waited >= timeout {
-                return Err(AskError::TimedOut { seconds: timeout.as_secs_f64().to_string() });
+                return Err(RequestError::TimedOut { seconds: timeout.as_secs_f64().to_string() });
             }
-            std::thread::sleep(GLANCE.min(timeout - waited));
+            std::thread::sleep(POLL_INTERVAL.min(timeout - waited));
         }
     }
 
-    /// Sends a request and waits for the answer.
+    /// Sends a request and waits for the reply.
     ///
     /// # Errors
     /// Those of [`send`](Self::send) and [`wait`](Self::wait).
-    pub fn ask(&self, request: &RequestMessage, timeout: Duration) -> Result<ReplyMessage, AskError> {
+    pub fn ask(&self, request: &RequestMessage, timeout: Duration) -> Result<ReplyMessage, RequestError> {
         self.wait(&self.send(request)?, timeout)
     }
 
-    /// Whether a controller is alive; looks after dead ones first, which takes some 0.1 ms.
+    /// Whether a controller is running. Cleans up after dead processes first, which takes about 0.1 ms.
     pub fn controller_is_there(&self) -> bool {
         self.service.try_cleanup_dead_nodes();
         self.service.dynamic_config().number_of_servers() > 0
     }
 
-    fn no_controller(&self) -> AskError {
-        AskError::NoController { instance: self.instance.clone() }
+    fn no_controller(&self) -> RequestError {
+        RequestError::NoController { instance: self.instance.clone() }
     }
 }
 
-/// A request that waits for its answer. Dropped, the answer is not wanted any more.
-pub struct Waiting {
+/// A request that was sent and not yet replied to. Dropping it discards the reply.
+pub struct PendingReply {
     response: PendingResponse<Ipc, RequestMessage, (), ReplyMessage, ()>,
 }
 
-impl Waiting {
-    /// The answer, if it has come.
+impl PendingReply {
+    /// The reply, if it has arrived.
     ///
     /// # Errors
-    /// The controller dropped the request, or left, or the shared memory failed.
-    pub fn poll(&self) -> Result<Option<ReplyMessage>, AskError> {
-        // In this order: an answer may come and the connection end between the two.
+    /// The controller dropped the request, or disconnected, or the shared memory failed.
+    pub fn poll(&self) -> Result<Option<ReplyMessage>, RequestError> {
+        // In this order: a reply may arrive and the connection end between the two.
         let connected = self.response.is_connected();
         match self.response.receive() {
             Ok(Some(reply)) => Ok(Some(*reply)),
             Ok(None) if connected => Ok(None),
-            Ok(None) => Err(AskError::Dropped),
-            Err(cause) => Err(WireFault { action: "receive a reply", cause: cause.to_string() }.into()),
+            Ok(None) => Err(RequestError::Dropped),
+            Err(cause) => Err(TransportError { action: "receive a reply", cause: cause.to_string() }.into()),
         }
     }
 }
 
-impl fmt::Debug for Waiting {
+impl fmt::Debug for PendingReply {
     fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
-        formatter.debug_struct("Waiting").finish_non_exhaustive()
+        formatter.debug_struct("PendingReply").finish_non_exhaustive()
     }
 }

@@ -3,10 +3,10 @@
 mod common;
 
 use common::{MECHANISM, measurement, own_instance};
-use wire::{ConnectError, ControllerEnd, ObserverEnd, OperatorEnd, PROTOCOL, PlantEnd};
+use wire::{ConnectError, ControllerPorts, ObserverPorts, OperatorPorts, PROTOCOL, PlantPorts};
 
 #[test]
-fn another_mechanism_is_refused_whoever_comes_first() {
+fn another_mechanism_is_refused_in_either_start_order() {
     let other = 0xfeed;
     let text = |error: ConnectError| error.to_string();
     let refusal = |instance: &wire::Instance, theirs: &str, ours: &str| {
@@ -17,48 +17,48 @@ fn another_mechanism_is_refused_whoever_comes_first() {
         )
     };
     let (instance, _leftovers) = own_instance();
-    let _plant = PlantEnd::connect(&instance, MECHANISM).unwrap();
+    let _plant = PlantPorts::connect(&instance, MECHANISM).unwrap();
     assert_eq!(
-        ControllerEnd::connect(&instance, other).map_err(text).unwrap_err(),
+        ControllerPorts::connect(&instance, other).map_err(text).unwrap_err(),
         refusal(&instance, "0x0123456789abcdef", "0x000000000000feed")
     );
 
     let (instance, _leftovers) = own_instance();
-    let _controller = ControllerEnd::connect(&instance, other).unwrap();
+    let _controller = ControllerPorts::connect(&instance, other).unwrap();
     assert_eq!(
-        PlantEnd::connect(&instance, MECHANISM).map_err(text).unwrap_err(),
+        PlantPorts::connect(&instance, MECHANISM).map_err(text).unwrap_err(),
         refusal(&instance, "0x000000000000feed", "0x0123456789abcdef")
     );
-    assert!(OperatorEnd::connect(&instance).is_ok(), "operators need not know the mechanism");
+    assert!(OperatorPorts::connect(&instance).is_ok(), "operators need not know the mechanism");
 }
 
 #[test]
-fn another_rate_is_refused_and_guests_are_told_it() {
+fn another_rate_is_refused_and_observers_can_read_it() {
     let (instance, _leftovers) = own_instance();
     let faster = instance.clone().with_rate_hz(2000);
-    let _controller = ControllerEnd::connect(&faster, MECHANISM).unwrap();
+    let _controller = ControllerPorts::connect(&faster, MECHANISM).unwrap();
     assert_eq!(
-        PlantEnd::connect(&instance, MECHANISM).unwrap_err().to_string(),
+        PlantPorts::connect(&instance, MECHANISM).unwrap_err().to_string(),
         format!(
             "service `halfstep/{}/setpoint` has rate_hz 2000, this process has rate_hz 1000; \
              start both sides with the same realtime.toml",
             instance.name()
         )
     );
-    assert!(OperatorEnd::connect(&instance).is_ok(), "operators need not know the rate");
-    assert_eq!(ObserverEnd::connect(&instance).unwrap().reports.rate_hz(), 2000);
+    assert!(OperatorPorts::connect(&instance).is_ok(), "operators need not know the rate");
+    assert_eq!(ObserverPorts::connect(&instance).unwrap().reports.rate_hz(), 2000);
 }
 
 #[test]
-fn another_version_is_refused_to_everyone() {
+fn another_protocol_version_is_refused_for_every_process() {
     let (instance, _leftovers) = own_instance();
     let newer = instance.clone().with_protocol(PROTOCOL + 1);
-    let _controller = ControllerEnd::connect(&instance, MECHANISM).unwrap();
+    let _controller = ControllerPorts::connect(&instance, MECHANISM).unwrap();
     let refusals = [
-        ("setpoint", PlantEnd::connect(&newer, MECHANISM).unwrap_err()),
-        ("setpoint", ControllerEnd::connect(&newer, MECHANISM).unwrap_err()),
-        ("request", OperatorEnd::connect(&newer).unwrap_err()),
-        ("report", ObserverEnd::connect(&newer).unwrap_err()),
+        ("setpoint", PlantPorts::connect(&newer, MECHANISM).unwrap_err()),
+        ("setpoint", ControllerPorts::connect(&newer, MECHANISM).unwrap_err()),
+        ("request", OperatorPorts::connect(&newer).unwrap_err()),
+        ("report", ObserverPorts::connect(&newer).unwrap_err()),
     ];
     for (service, error) in refusals {
         assert_eq!(
@@ -75,12 +75,12 @@ fn another_version_is_refused_to_everyone() {
 }
 
 #[test]
-fn when_the_old_ones_have_gone_anything_goes() {
+fn a_new_version_may_start_once_all_old_processes_have_disconnected() {
     let (instance, _leftovers) = own_instance();
-    let mut plant = PlantEnd::connect(&instance, MECHANISM).unwrap();
+    let mut plant = PlantPorts::connect(&instance, MECHANISM).unwrap();
     plant.measurements.write(&measurement(1));
     drop(plant);
     let newer = instance.clone().with_protocol(PROTOCOL + 1);
-    let mut controller = ControllerEnd::connect(&newer, 0xfeed).unwrap();
-    assert_eq!(controller.measurements.newest(), None);
+    let mut controller = ControllerPorts::connect(&newer, 0xfeed).unwrap();
+    assert_eq!(controller.measurements.latest(), None);
 }

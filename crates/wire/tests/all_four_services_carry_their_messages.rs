@@ -1,18 +1,17 @@
-//! All four services carry their messages, whichever end comes first, and nothing is left when all have gone.
+//! All four services carry their messages, in either start order, and no file is left at the end.
 
 mod common;
 
 use common::{LONG, MECHANISM, eventually, files_of, measurement, own_instance, report, request, setpoint};
-use wire::{
-    AskError, ConnectError, ControllerEnd, Granted, ObserverEnd, OperatorEnd, PlantEnd, Reason, Reply, ReplyMessage,
-};
+use interface::{Command, Reason, Reply};
+use wire::{ConnectError, ControllerPorts, ObserverPorts, OperatorPorts, PlantPorts, ReplyMessage, RequestError};
 
 #[test]
-fn the_newest_setpoint_and_measurement_win() {
+fn readers_get_the_latest_setpoint_and_measurement() {
     for controller_first in [true, false] {
         let (instance, _leftovers) = own_instance();
-        let connect_controller = || ControllerEnd::connect(&instance, MECHANISM).unwrap();
-        let connect_plant = || PlantEnd::connect(&instance, MECHANISM).unwrap();
+        let connect_controller = || ControllerPorts::connect(&instance, MECHANISM).unwrap();
+        let connect_plant = || PlantPorts::connect(&instance, MECHANISM).unwrap();
         let (mut controller, mut plant);
         if controller_first {
             controller = connect_controller();
@@ -21,15 +20,15 @@ fn the_newest_setpoint_and_measurement_win() {
             plant = connect_plant();
             controller = connect_controller();
         }
-        assert_eq!(plant.setpoints.newest(), None);
-        assert_eq!(controller.measurements.newest(), None);
+        assert_eq!(plant.setpoints.latest(), None);
+        assert_eq!(controller.measurements.latest(), None);
         for tick in 0..5 {
             plant.measurements.write(&measurement(tick));
-            assert_eq!(controller.measurements.newest(), Some(measurement(tick)));
-            assert_eq!(controller.measurements.newest(), Some(measurement(tick)), "it can be read again");
+            assert_eq!(controller.measurements.latest(), Some(measurement(tick)));
+            assert_eq!(controller.measurements.latest(), Some(measurement(tick)), "it can be read again");
             controller.setpoints.write(&setpoint(2 * tick));
             controller.setpoints.write(&setpoint(2 * tick + 1));
-            assert_eq!(plant.setpoints.newest(), Some(setpoint(2 * tick + 1)), "the newest wins");
+            assert_eq!(plant.setpoints.latest(), Some(setpoint(2 * tick + 1)), "the newest wins");
         }
     }
 }
@@ -37,15 +36,15 @@ fn the_newest_setpoint_and_measurement_win() {
 #[test]
 fn each_request_gets_its_own_reply() {
     let (instance, _leftovers) = own_instance();
-    let mut controller = ControllerEnd::connect(&instance, MECHANISM).unwrap();
-    let (console, script) = (OperatorEnd::connect(&instance).unwrap(), OperatorEnd::connect(&instance).unwrap());
+    let mut controller = ControllerPorts::connect(&instance, MECHANISM).unwrap();
+    let (console, script) = (OperatorPorts::connect(&instance).unwrap(), OperatorPorts::connect(&instance).unwrap());
 
-    // Both ask 256 times before anybody answers.
-    let ask = |operator: &OperatorEnd, from: u32| {
+    // Both send 256 requests before the first reply.
+    let ask = |operator: &OperatorPorts, from: u32| {
         (0..256).map(|turn| operator.requests.send(&request(f64::from(from + turn))).unwrap()).collect::<Vec<_>>()
     };
     let waiting = [ask(&console, 0), ask(&script, 1000)];
-    assert_eq!(console.requests.send(&request(0.0)).unwrap_err(), AskError::TooMany { limit: 256 });
+    assert_eq!(console.requests.send(&request(0.0)).unwrap_err(), RequestError::TooMany { limit: 256 });
     assert!(waiting[0][0].poll().unwrap().is_none());
 
     let mut asked = Vec::new();
@@ -53,7 +52,7 @@ fn each_request_gets_its_own_reply() {
         asked.push(question);
     }
     assert_eq!(asked.len(), 512);
-    // Answered in another order than asked.
+    // Replies in another order than the requests.
     for (message, answer) in asked.into_iter().rev() {
         assert!(answer.reply(&reply_to(message.turn)));
     }
@@ -64,19 +63,19 @@ fn each_request_gets_its_own_reply() {
         }
     }
     drop(waiting);
-    assert!(console.requests.send(&request(0.0)).is_ok(), "answers that were read make room for new questions");
+    assert!(console.requests.send(&request(0.0)).is_ok(), "replies that were read make room for new requests");
 }
 
 fn reply_to(turn: f64) -> ReplyMessage {
-    let granted = Granted { turn, speed: 1.0, extension: 0.0, intent: None };
-    ReplyMessage::from(&Reply::refused(Reason::NoWayBack, 7, granted))
+    let granted = Command { turn, speed: 1.0, extension: 0.0 };
+    ReplyMessage::from(&Reply::refused(Reason::CannotRestart, 7, granted, None))
 }
 
 #[test]
-fn observers_hear_every_report_and_lose_the_oldest_when_they_sleep() {
+fn observers_receive_every_report_and_lose_the_oldest_when_slow() {
     let (instance, _leftovers) = own_instance();
-    let mut controller = ControllerEnd::connect(&instance, MECHANISM).unwrap();
-    let mut observers = [ObserverEnd::connect(&instance).unwrap(), ObserverEnd::connect(&instance).unwrap()];
+    let mut controller = ControllerPorts::connect(&instance, MECHANISM).unwrap();
+    let mut observers = [ObserverPorts::connect(&instance).unwrap(), ObserverPorts::connect(&instance).unwrap()];
     for tick in 0..3 {
         assert_eq!(controller.reports.publish(&report(tick)), Ok(2));
     }
@@ -93,27 +92,27 @@ fn observers_hear_every_report_and_lose_the_oldest_when_they_sleep() {
 }
 
 #[test]
-fn ends_and_their_parts_move_to_other_threads() {
+fn ports_may_move_to_other_threads() {
     let (instance, _leftovers) = own_instance();
-    let ControllerEnd { mut setpoints, mut measurements, mut requests, mut reports } =
-        ControllerEnd::connect(&instance, MECHANISM).unwrap();
-    let mut plant = PlantEnd::connect(&instance, MECHANISM).unwrap();
-    let mut observer = ObserverEnd::connect(&instance).unwrap();
-    let operator = OperatorEnd::connect(&instance).unwrap();
+    let ControllerPorts { mut setpoints, mut measurements, mut requests, mut reports } =
+        ControllerPorts::connect(&instance, MECHANISM).unwrap();
+    let mut plant = PlantPorts::connect(&instance, MECHANISM).unwrap();
+    let mut observer = ObserverPorts::connect(&instance).unwrap();
+    let operator = OperatorPorts::connect(&instance).unwrap();
     const TICKS: u64 = 200;
 
     std::thread::scope(|threads| {
         // Lockstep: each waits for the other's tick.
         threads.spawn(move || {
             for tick in 0..TICKS {
-                eventually("a measurement", || measurements.newest().filter(|message| message.tick == tick));
+                eventually("a measurement", || measurements.latest().filter(|message| message.tick == tick));
                 setpoints.write(&setpoint(tick));
             }
         });
         threads.spawn(move || {
             for tick in 0..TICKS {
                 plant.measurements.write(&measurement(tick));
-                let newest = eventually("a setpoint", || plant.setpoints.newest().filter(|m| m.tick == tick));
+                let newest = eventually("a setpoint", || plant.setpoints.latest().filter(|m| m.tick == tick));
                 assert_eq!(newest, setpoint(tick), "a message is never torn");
             }
         });
@@ -123,57 +122,57 @@ fn ends_and_their_parts_move_to_other_threads() {
                 reports.publish(&report(1)).unwrap();
                 answer.reply(&reply_to(0.0));
             }
-            // The last answer has been read when the operator says goodbye with a question nobody answers.
-            eventually("a goodbye", || requests.next_request().unwrap());
+            // The operator has read the last reply when it sends one more request, which stays without a reply.
+            eventually("the last request", || requests.next_request().unwrap());
         });
         threads.spawn(move || {
             operator.requests.ask(&request(0.0), LONG).unwrap();
             eventually("a report", || observer.reports.next_report().unwrap());
             operator.requests.ask(&request(0.0), LONG).unwrap();
-            let goodbye = operator.requests.send(&request(0.0)).unwrap();
-            eventually("the end", || goodbye.poll().err());
+            let last = operator.requests.send(&request(0.0)).unwrap();
+            eventually("the end", || last.poll().err());
         });
     });
 }
 
 #[test]
-fn without_a_controller_nobody_can_ask_or_listen() {
+fn operators_and_observers_are_refused_without_a_controller() {
     let (instance, _leftovers) = own_instance();
     let text = format!(
         "no controller is running on instance `{0}`; start one with `halfstep controller --instance {0}`",
         instance.name()
     );
     let error = |error: ConnectError| error.to_string();
-    assert_eq!(OperatorEnd::connect(&instance).map_err(error).unwrap_err(), text);
-    assert_eq!(ObserverEnd::connect(&instance).map_err(error).unwrap_err(), text);
+    assert_eq!(OperatorPorts::connect(&instance).map_err(error).unwrap_err(), text);
+    assert_eq!(ObserverPorts::connect(&instance).map_err(error).unwrap_err(), text);
 
-    let _plant = PlantEnd::connect(&instance, MECHANISM).unwrap();
-    assert_eq!(OperatorEnd::connect(&instance).map_err(error).unwrap_err(), text, "a plant is no controller");
+    let _plant = PlantPorts::connect(&instance, MECHANISM).unwrap();
+    assert_eq!(OperatorPorts::connect(&instance).map_err(error).unwrap_err(), text, "a plant is no controller");
 
-    let controller = ControllerEnd::connect(&instance, MECHANISM).unwrap();
-    let operator = OperatorEnd::connect(&instance).unwrap();
-    let _observer = ObserverEnd::connect(&instance).unwrap();
+    let controller = ControllerPorts::connect(&instance, MECHANISM).unwrap();
+    let operator = OperatorPorts::connect(&instance).unwrap();
+    let _observer = ObserverPorts::connect(&instance).unwrap();
     let waiting = operator.requests.send(&request(0.0)).unwrap();
     drop(controller);
-    let gone = AskError::NoController { instance: instance.name().to_string() };
-    assert_eq!(operator.requests.wait(&waiting, LONG).unwrap_err(), gone, "it left without an answer");
+    let gone = RequestError::NoController { instance: instance.name().to_string() };
+    assert_eq!(operator.requests.wait(&waiting, LONG).unwrap_err(), gone, "it disconnected without a reply");
     assert_eq!(operator.requests.send(&request(0.0)).unwrap_err(), gone);
-    assert_eq!(OperatorEnd::connect(&instance).map_err(error).unwrap_err(), text, "an operator is no controller");
+    assert_eq!(OperatorPorts::connect(&instance).map_err(error).unwrap_err(), text, "an operator is no controller");
 
-    let mut controller = ControllerEnd::connect(&instance, MECHANISM).unwrap();
+    let mut controller = ControllerPorts::connect(&instance, MECHANISM).unwrap();
     let waiting = operator.requests.send(&request(0.5)).unwrap();
     let (message, answer) = controller.requests.next_request().unwrap().unwrap();
     assert_eq!(message.turn, 0.5, "the operator finds the next controller");
     drop(answer);
-    assert_eq!(operator.requests.wait(&waiting, LONG).unwrap_err(), AskError::Dropped);
+    assert_eq!(operator.requests.wait(&waiting, LONG).unwrap_err(), RequestError::Dropped);
 }
 
 #[test]
-fn nothing_is_left_when_all_have_gone() {
+fn no_file_is_left_once_all_processes_have_disconnected() {
     let (instance, leftovers) = own_instance();
     {
-        let _controller = ControllerEnd::connect(&instance, MECHANISM).unwrap();
-        let _plant = PlantEnd::connect(&instance, MECHANISM).unwrap();
+        let _controller = ControllerPorts::connect(&instance, MECHANISM).unwrap();
+        let _plant = PlantPorts::connect(&instance, MECHANISM).unwrap();
         let before = files_of(&instance);
         instance.remove_leftovers().unwrap();
         assert_eq!(files_of(&instance).len(), before.len(), "what is in use stays");

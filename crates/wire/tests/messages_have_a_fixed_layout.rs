@@ -25,14 +25,14 @@ macro_rules! assert_layout {
 }
 
 #[test]
-fn setpoint() {
+fn setpoint_message_has_a_fixed_layout() {
     assert_layout!(SetpointMessage, 496, {
         tick @ 0 + 8, time_ns @ 8 + 8, angles @ 16 + 160, rates @ 176 + 160, feed_forward @ 336 + 160,
     });
 }
 
 #[test]
-fn measurement() {
+fn measurement_message_has_a_fixed_layout() {
     assert_layout!(MeasurementMessage, 656, {
         tick @ 0 + 8, time_ns @ 8 + 8, sample @ 16 + 8, angles @ 24 + 160, rates @ 184 + 160, wrench_right @ 344 + 48,
         wrench_left @ 392 + 48, imu_orientation @ 440 + 32, imu_rate @ 472 + 24, motor_current @ 496 + 160,
@@ -40,7 +40,7 @@ fn measurement() {
 }
 
 #[test]
-fn request() {
+fn request_message_has_a_fixed_layout() {
     assert_layout!(RequestMessage, 56, {
         not_before @ 0 + 8, present @ 8 + 4, intent @ 12 + 4, source @ 16 + 4, lasting @ 20 + 4, turn @ 24 + 8,
         speed @ 32 + 8, extension @ 40 + 8, age_limit @ 48 + 8,
@@ -48,7 +48,7 @@ fn request() {
 }
 
 #[test]
-fn reply() {
+fn reply_message_has_a_fixed_layout() {
     assert_layout!(ReplyMessage, 88, {
         verdict @ 0 + 4, reason @ 4 + 4, effect_half_step @ 8 + 8, turn @ 16 + 8, speed @ 24 + 8, extension @ 32 + 8,
         intent @ 40 + 4, known @ 44 + 4, joint @ 48 + 4, source @ 52 + 4, value @ 56 + 8, limit @ 64 + 8,
@@ -57,7 +57,7 @@ fn reply() {
 }
 
 #[test]
-fn report() {
+fn report_message_has_a_fixed_layout() {
     assert_layout!(ReportMessage, 264, {
         tick @ 0 + 8, time_ns @ 8 + 8, mode @ 16 + 4, support @ 20 + 4, half_step @ 24 + 8, progress @ 32 + 8,
         speed @ 40 + 8, turn @ 48 + 8, extension @ 56 + 8, zmp_in_support @ 64 + 16, zmp_planned @ 80 + 16,

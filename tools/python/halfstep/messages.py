@@ -28,10 +28,10 @@ class Source(IntEnum):
     PROGRAM = 3  # program
 
 
-class Lasting(IntEnum):
-    UNTIL_CHANGED = 0  # until changed
-    WHILE_SPEAKING = 1  # while its source speaks
-    FAREWELL = 2  # after its source has left
+class Lifetime(IntEnum):
+    LATCHED = 0  # until replaced
+    STREAMED = 1  # while its source keeps sending
+    RELEASE = 2  # released by its source
 
 
 class Verdict(IntEnum):
@@ -41,28 +41,28 @@ class Verdict(IntEnum):
 
 
 class Reason(IntEnum):
-    NONE = 0  # no objection
-    TURN_LIMIT = 1  # the turn is larger than this walk can do
-    SPEED_LIMIT = 2  # the speed is outside what this walk can do
-    EXTENSION_LIMIT = 3  # the step extension is larger than this walk can do
-    NOT_FINITE = 4  # a number is not finite
-    NO_WAY_BACK = 5  # this walk cannot go on any more: start a new one
+    NONE = 0  # accepted as requested
+    TURN_LIMIT = 1  # the turn is outside the permitted range
+    SPEED_LIMIT = 2  # the speed is outside the permitted range
+    EXTENSION_LIMIT = 3  # the step extension is outside the permitted range
+    NOT_FINITE = 4  # a value is not a finite number
+    CANNOT_RESTART = 5  # the uncompensated gait cannot restart from a stand: restart the controller
     QUEUE_FULL = 6  # too many requests are waiting for their tick
-    NOT_UNDERSTOOD = 7  # a code in the request means nothing to this controller
-    EMPTY = 8  # the request asks for nothing
+    UNKNOWN_CODE = 7  # the request contains a code unknown to this controller
+    EMPTY = 8  # the request is empty
     SHUTTING_DOWN = 9  # the controller is shutting down
-    OUTRANKED = 10  # a source that goes before this one is in command
-    MARGIN = 11  # the zero-moment point would come too near to the edge of the sole
+    OUTRANKED = 10  # a source of higher priority is in control
+    MARGIN = 11  # the zero-moment point would come too close to the edge of the sole
     JOINT_RANGE = 12  # a joint would leave its range
-    JOINT_RATE = 13  # a joint would move too fast
-    TORQUE = 14  # a motor would need more torque than it has
-    VOLTAGE = 15  # a motor would need more voltage than there is
-    SOLE_CLEARANCE = 16  # the swinging sole would come too near to the ground
-    LEG_REACH = 17  # a leg would have to reach too far
-    SUPERSEDED = 18  # a newer request took its place
-    FALLEN = 19  # the robot has fallen: put it on its feet and ask for a reset
-    FAULTED = 20  # a fault is latched: ask for a reset
-    NOT_WELL = 21  # what went wrong still is: the robot must be on its feet and be heard from
+    JOINT_RATE = 13  # a joint would exceed its rate limit
+    TORQUE = 14  # a motor would exceed its torque limit
+    VOLTAGE = 15  # a motor would need more than its supply voltage
+    SOLE_CLEARANCE = 16  # the swing foot would come too close to the ground or to the other foot
+    LEG_REACH = 17  # a leg would be overextended
+    SUPERSEDED = 18  # a newer request replaced it
+    FALLEN = 19  # the robot has fallen: set it upright and send reset
+    FAULTED = 20  # a fault is latched: send reset
+    FAULT_PERSISTS = 21  # the fault persists: the robot must be upright and sending measurements
 
 
 class Mode(IntEnum):
@@ -77,16 +77,16 @@ class Mode(IntEnum):
 
 
 class Fault(IntFlag):
-    MEASUREMENT_NOT_FINITE = 1  # a measurement holds a number that is not finite
-    MEASUREMENT_ABSURD = 2  # a measurement holds a number that no working sensor gives
-    MEASUREMENT_STALE = 4  # no new measurement has come for too long
-    MEASUREMENT_OUT_OF_ORDER = 8  # a measurement is older than one before it
-    ANGLE_LIMITED = 16  # a joint angle had to be held within its range
-    RATE_LIMITED = 32  # a joint rate had to be held within its limit
-    SETPOINT_NOT_FINITE = 64  # the setpoint was not finite; the last good one was sent
-    IN_THE_AIR = 128  # the feet carry too little for a zero-moment point
+    MEASUREMENT_NOT_FINITE = 1  # a measurement contains a value that is not finite
+    MEASUREMENT_IMPLAUSIBLE = 2  # a measurement contains an implausible value
+    MEASUREMENT_STALE = 4  # no valid measurement has arrived for too long
+    MEASUREMENT_OUT_OF_ORDER = 8  # a measurement is older than the one before
+    ANGLE_LIMITED = 16  # a joint angle was limited to its range
+    RATE_LIMITED = 32  # a joint rate was limited
+    SETPOINT_NOT_FINITE = 64  # the setpoint was not finite; the last valid one was sent
+    IN_THE_AIR = 128  # the feet bear too little force for a zero-moment point
     FALLEN = 256  # the robot has fallen
-    OUT_OF_REACH = 1024  # the plan went where a leg cannot reach
+    OUT_OF_REACH = 1024  # the plan needed a foot out of a leg's reach
     DEADLINE_MISSED = 512  # a deadline was missed
 
 

@@ -12,7 +12,7 @@ import iceoryx2 as iox2
 
 from .errors import HalfstepError, NoController, TimedOut
 from .instance import Agreement, Instance
-from .messages import Intent, Lasting, Reason, Reply, Report, Request, Source, Verdict
+from .messages import Intent, Lifetime, Reason, Reply, Report, Request, Source, Verdict
 
 _TURN, _SPEED, _EXTENSION, _INTENT = 1, 2, 4, 8
 _MARGIN = 4
@@ -89,7 +89,7 @@ class Operator:
         """
         request = Request(not_before=not_before, source=Source.PROGRAM)
         if silence_s is not None:
-            request.lasting, request.age_limit = Lasting.WHILE_SPEAKING, silence_s
+            request.lasting, request.age_limit = Lifetime.STREAMED, silence_s
         for bit, field, value in (
             (_TURN, "turn", turn_deg if turn_deg is None else math.radians(turn_deg)),
             (_SPEED, "speed", speed),

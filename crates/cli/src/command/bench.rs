@@ -1,32 +1,37 @@
-//! `halfstep bench`: how fast it is on this machine, beside others in the same run.
+//! `halfstep bench`: benchmarks on this machine, against references in the same run.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::Command;
 use std::time::Duration;
 
 use ::bench::compute::{ComputeOptions, compute};
+use ::bench::control_latency::{self, ControlLatencyOptions};
 use ::bench::exchange::{ExchangeOptions, answer, exchange};
 use ::bench::jitter::{JitterOptions, jitter};
-use ::bench::{BenchError, Findings};
+use ::bench::observed_jitter::{ObservedJitterOptions, observed_jitter};
+use ::bench::page::bench_page;
+use ::bench::{BenchError, BenchReport};
 use clap::Subcommand;
+use gait::Robot;
+use node::configuration::Errors;
+use node::realtime::RealtimeParameters;
 use plant::Plant;
 use runtime::Scheduling;
 use wire::{Instance, InstanceName};
 
-use super::{duration, print, print_line};
-use crate::bench_page::bench_page;
-use crate::configuration::{ConfigOptions, Errors, Robot};
-use crate::failure::{Failure, Outcome};
-use crate::in_command::{self, InCommandOptions};
-use crate::realtime::RealtimeParameters;
-use crate::watched::{WatchedOptions, watched};
+use super::config_options::ConfigOptions;
+use super::options::duration;
+use crate::error::CliError;
+use crate::output::{print, print_line, write_files};
+use crate::process::Process;
+use crate::status::Status;
 
-/// Measure speed, latency and jitter beside others in the same run
+/// Benchmark on this machine, against reference implementations in the same run
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "A time says something about the machine; the verdict is a ratio of two numbers of one run. \
 Nothing else should run meanwhile.")]
-pub struct Bench {
+pub struct BenchArgs {
     #[command(flatten)]
     config: ConfigOptions,
     /// Also write bench.html, with histograms, and bench.json into this folder
@@ -38,33 +43,33 @@ pub struct Bench {
 
 #[derive(Clone, Debug, Subcommand)]
 enum What {
-    /// A configuration, a step of the plant, a tick, a plan
+    /// Inverse dynamics, plant step, controller tick and plan
     Compute {
-        /// How often everything takes turns
+        /// Number of interleaved rounds
         #[arg(long, value_name = "N", default_value_t = 5)]
         rounds: u32,
-        /// How long a turn lasts
+        /// Duration of each round
         #[arg(long, value_name = "DURATION", value_parser = duration, default_value = "300ms")]
         turn: Duration,
     },
-    /// The exchange between two processes beside iceoryx2 and shared memory; the controller from outside
+    /// Exchange between two processes, against iceoryx2 and plain shared memory; latency of the controller
     Latency {
-        /// How often all ways of exchange take turns
+        /// Number of interleaved rounds
         #[arg(long, value_name = "N", default_value_t = 8)]
         rounds: u32,
-        /// Round trips of a round, flat out
+        /// Round trips per round, without pause
         #[arg(long, value_name = "N", default_value_t = 20_000)]
         trips: u64,
-        /// Requests to the controller, each 1.35 s after the other
+        /// Requests to the controller, one every 1.35 s
         #[arg(long, value_name = "N", default_value_t = 20)]
         requests: u32,
     },
-    /// How late the loop wakes up, beside cyclictest or a bare loop; the controller, watched and left alone
+    /// Wake-up latency of the loop, against cyclictest or a bare loop; the controller with and without an observer
     Jitter {
-        /// How often all loops take turns
+        /// Number of interleaved rounds
         #[arg(long, value_name = "N", default_value_t = 12)]
         segments: u32,
-        /// How long a turn lasts; 5s for a number to quote
+        /// Duration of each round; 5s for figures to quote
         #[arg(long, value_name = "DURATION", value_parser = duration, default_value = "1s")]
         segment: Duration,
     },
@@ -80,40 +85,40 @@ enum What {
     },
 }
 
-/// How long before its deadline the spinning loop of `jitter` stops sleeping, unless realtime.toml says.
+/// How long before its deadline the spinning loop of `jitter` stops sleeping if realtime.toml has no time for it.
 const SPIN: Duration = Duration::from_micros(150);
-/// As a process has it at its beginning: controllers are large values, and several are made ready at once [bytes].
+/// Size of a thread's stack, as a process's main thread has it (bytes): controllers are large values.
 const STACK: usize = 8 << 20;
-/// Round trips of a round at the loop's pace.
+/// Round trips per round at the control rate.
 const TRIPS_AT_PACE: u64 = 500;
-/// Periods of the controller flat out.
+/// Periods of the controller in lockstep.
 const FLAT_OUT: u64 = 20_000;
 
-impl Bench {
-    pub fn run(self, json: bool) -> Result<Outcome, Failure> {
-        let findings = match &self.what {
+impl BenchArgs {
+    pub fn run(self, json: bool) -> Result<Status, CliError> {
+        let report = match &self.what {
             What::Answer { instance, core, priority } => {
                 let scheduling = Scheduling { priority: *priority, ..awake_on(*core) };
                 answer(&Instance::new(instance.as_str())?, &scheduling)?;
-                return Ok(Outcome::Fine);
+                return Ok(Status::Success);
             }
             What::Compute { rounds, turn } => self.compute(*rounds, *turn)?,
             What::Latency { rounds, trips, requests } => self.latency(*rounds, *trips, *requests)?,
             What::Jitter { segments, segment } => self.jitter(*segments, *segment)?,
         };
-        print(json, &findings)?;
+        print(json, &report)?;
         if let Some(folder) = &self.out {
-            let told = serde_json::to_string_pretty(&findings).map_err(Failure::new)? + "\n";
-            super::write_pictures(folder, &[("bench.html", bench_page(&findings)), ("bench.json", told)])?;
+            let text = serde_json::to_string_pretty(&report).map_err(CliError::new)? + "\n";
+            write_files(folder, &[("bench.html", bench_page(&report)), ("bench.json", text)])?;
             if !json {
                 print_line(format_args!("bench.html and bench.json are in {}", folder.display()))?;
             }
         }
-        // Whether a ratio is reached is told; a machine that is busy is no failure.
-        Ok(Outcome::Fine)
+        // A ratio that does not pass is reported; on a busy machine that is no failure.
+        Ok(Status::Success)
     }
 
-    fn compute(&self, rounds: u32, turn: Duration) -> Result<Findings, Failure> {
+    fn compute(&self, rounds: u32, turn: Duration) -> Result<BenchReport, CliError> {
         let Loaded { robot, controller, plant, realtime } = self.load()?;
         let Scheduling { core, lock_memory, .. } = realtime.controller;
         let options = ComputeOptions {
@@ -122,14 +127,14 @@ impl Bench {
             controller,
             plant,
             rounds,
-            turn,
+            slice: turn,
             period: realtime.rate.period_s(),
             scheduling: Scheduling { core, lock_memory, ..Scheduling::default() },
         };
-        Ok(apart(|| compute(&options))??)
+        Ok(in_own_thread(|| compute(&options))??)
     }
 
-    fn latency(&self, rounds: u32, trips: u64, requests: u32) -> Result<Findings, Failure> {
+    fn latency(&self, rounds: u32, trips: u64, requests: u32) -> Result<BenchReport, CliError> {
         let Loaded { robot, plant: parameters, realtime, .. } = self.load()?;
         let cores = cores(&realtime)?;
         let period = realtime.rate.period();
@@ -144,28 +149,29 @@ impl Bench {
             command.args(priority.into_iter().flat_map(|priority| ["--priority".to_owned(), priority.to_string()]));
             Ok(command)
         };
-        let mut findings = apart(|| exchange(&options, &instance, answering))??;
+        let mut report = in_own_thread(|| exchange(&options, &instance, answering))??;
 
-        let options = InCommandOptions { rate: realtime.rate, requests, flat_out: FLAT_OUT, scheduling: scheduling[0] };
+        let options =
+            ControlLatencyOptions { rate: realtime.rate, requests, in_lockstep: FLAT_OUT, scheduling: scheduling[0] };
         let start = robot.nominal.at(0.0);
         let new_plant = || Plant::new(&robot.mechanism, &parameters, &start, realtime.rate.period_s(), 1);
-        let at_pace = self.with_controller(&realtime, &[], |instance| {
-            in_command::at_pace(&options, instance, &robot.mechanism, &mut new_plant())
+        let in_realtime = self.with_controller(&realtime, &[], |instance| {
+            control_latency::in_realtime(&options, instance, &robot.mechanism, &mut new_plant())
         })?;
-        let flat_out = self.with_controller(&realtime, &["--lockstep"], |instance| {
-            in_command::flat_out(&options, instance, &robot.mechanism, &mut new_plant())
+        let in_lockstep = self.with_controller(&realtime, &["--lockstep"], |instance| {
+            control_latency::in_lockstep(&options, instance, &robot.mechanism, &mut new_plant())
         })?;
-        findings.series.extend(at_pace.series.into_iter().chain([flat_out]));
-        findings.ratios.extend(at_pace.ratios);
-        findings.notes.extend(at_pace.notes);
-        Ok(findings)
+        report.series.extend(in_realtime.series.into_iter().chain([in_lockstep]));
+        report.ratios.extend(in_realtime.ratios);
+        report.notes.extend(in_realtime.notes);
+        Ok(report)
     }
 
-    fn jitter(&self, segments: u32, segment: Duration) -> Result<Findings, Failure> {
+    fn jitter(&self, segments: u32, segment: Duration) -> Result<BenchReport, CliError> {
         let Loaded { robot, plant: parameters, realtime, .. } = self.load()?;
         let [busy, core] = cores(&realtime)?;
         let spin = if realtime.spin.is_zero() { SPIN } else { realtime.spin };
-        let mut findings = jitter(&JitterOptions {
+        let mut report = jitter(&JitterOptions {
             segments,
             segment,
             period: realtime.rate.period(),
@@ -174,7 +180,8 @@ impl Bench {
             busy_core: (busy != core).then_some(busy),
         })?;
 
-        let options = WatchedOptions { rate: realtime.rate, loop_core: realtime.controller.core, segments, segment };
+        let options =
+            ObservedJitterOptions { rate: realtime.rate, loop_core: realtime.controller.core, segments, segment };
         let instance = own_instance("watched")?.with_rate_hz(realtime.rate.hz());
         let controller = |folder: Option<&Path>| {
             let mut command = self.controller(&instance)?;
@@ -183,38 +190,38 @@ impl Bench {
         };
         let start = robot.nominal.at(0.0);
         let new_plant = || Plant::new(&robot.mechanism, &parameters, &start, realtime.rate.period_s(), 1);
-        let (series, ratios) = apart(|| watched(&options, &instance, controller, &robot.mechanism, new_plant))??;
-        findings.series.extend(series);
-        findings.ratios.extend(ratios);
-        Ok(findings)
+        let (series, ratios) =
+            in_own_thread(|| observed_jitter(&options, &instance, controller, &robot.mechanism, new_plant))??;
+        report.series.extend(series);
+        report.ratios.extend(ratios);
+        Ok(report)
     }
 
-    fn load(&self) -> Result<Loaded, Failure> {
+    fn load(&self) -> Result<Loaded, CliError> {
         let mut errors = Errors::default();
-        let robot = self.config.robot(&mut errors).zip(self.config.realtime(&mut errors));
-        let parameters = self.config.controller(&mut errors).zip(self.config.plant(&mut errors));
+        let files = self.config.files();
+        let robot = files.robot(&mut errors).zip(files.realtime(&mut errors));
+        let parameters = files.controller(&mut errors).zip(files.plant(&mut errors));
         let ((robot, realtime), (controller, plant)) = errors.finish(robot.zip(parameters))?;
         Ok(Loaded { robot, controller, plant, realtime })
     }
 
-    /// Starts a controller of its own, does something with it and ends it.
+    /// Runs `work` with a controller process of its own.
     fn with_controller<T: Send>(
         &self,
         realtime: &RealtimeParameters,
         options: &[&str],
         work: impl FnOnce(&Instance) -> Result<T, BenchError> + Send,
-    ) -> Result<T, Failure> {
+    ) -> Result<T, CliError> {
         let instance = own_instance("controller")?.with_rate_hz(realtime.rate.hz());
         let _leftovers = instance.leftovers();
-        let cannot = |error| Failure::new(format!("cannot start the controller: {error}"));
-        let command = self.controller(&instance);
-        let child =
-            command.and_then(|mut command| command.args(options).stdin(Stdio::null()).stdout(Stdio::null()).spawn());
-        let _ended = Ended(child.map_err(cannot)?);
-        Ok(apart(|| work(&instance))??)
+        let arguments =
+            self.config.arguments().into_iter().chain(["--instance".into(), instance.name().as_str().into()]);
+        let _controller = Process::start("controller", arguments.chain(options.iter().map(Into::into)))?;
+        Ok(in_own_thread(|| work(&instance))??)
     }
 
-    /// A controller of its own, yet to be started.
+    /// The command that starts a controller process.
     fn controller(&self, instance: &Instance) -> std::io::Result<Command> {
         let mut command = Command::new(std::env::current_exe()?);
         command.arg("controller").args(self.config.arguments());
@@ -223,42 +230,33 @@ impl Bench {
     }
 }
 
-/// What is configured.
+/// The loaded configuration.
 struct Loaded {
     robot: Robot,
     controller: controller::Parameters,
-    plant: plant::Parameters,
+    plant: plant::PlantParameters,
     realtime: RealtimeParameters,
 }
 
-/// A process that is ended when dropped. It may wait for a plant that has gone, so it is not asked.
-struct Ended(Child);
-
-impl Drop for Ended {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
-
-/// Where plant and controller run; the first two cores if nothing is configured.
-fn cores(realtime: &RealtimeParameters) -> Result<[usize; 2], Failure> {
+/// Cores of plant and controller; the first two if none are configured.
+fn cores(realtime: &RealtimeParameters) -> Result<[usize; 2], CliError> {
     let count = std::thread::available_parallelism().map_or(1, usize::from);
     let cores = [realtime.plant.core.unwrap_or(0), realtime.controller.core.unwrap_or(1)];
     match cores.iter().find(|core| **core >= count) {
         None => Ok(cores),
-        Some(core) => Err(Failure::new(format!(
-            "this needs core {core} (config/realtime.toml), and there are {count}: who waits awake needs a core of its own"
+        Some(core) => Err(CliError::new(format!(
+            "needs core {core} (config/realtime.toml), but only {count} are available; busy-waiting threads need a dedicated core"
         ))),
     }
 }
 
-/// Does it in a thread of its own: what that asks of the system is not for this one, nor for the processes it starts.
-fn apart<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+/// Runs `work` in a thread of its own, so that the scheduling that it asks for does not apply to this thread and to the
+/// processes that it starts.
+fn in_own_thread<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, CliError> {
     let thread = std::thread::Builder::new().name("bench".to_owned()).stack_size(STACK);
     std::thread::scope(|threads| {
         let thread = thread.spawn_scoped(threads, work);
-        let thread = thread.map_err(|error| Failure::new(format!("cannot start a thread: {error}")))?;
+        let thread = thread.map_err(|error| CliError::new(format!("cannot start a thread: {error}")))?;
         Ok(thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
     })
 }
@@ -267,12 +265,12 @@ fn awake_on(core: usize) -> Scheduling {
     Scheduling { core: Some(core), lock_memory: true, ..Scheduling::default() }
 }
 
-fn own_instance(name: &str) -> Result<Instance, Failure> {
+fn own_instance(name: &str) -> Result<Instance, CliError> {
     Ok(Instance::new(&format!("bench-{name}-{}", std::process::id()))?)
 }
 
-impl From<BenchError> for Failure {
+impl From<BenchError> for CliError {
     fn from(error: BenchError) -> Self {
-        Failure::new(error)
+        CliError::new(error)
     }
 }

@@ -1,29 +1,33 @@
-//! `halfstep check`: is the configuration right, and what robot and walk is it?
+//! `halfstep check`: validates the configuration, and prints a summary of robot and walk.
 
 use std::fmt::Display;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use config::Config;
 use dynamics::{Kinematics, Tree, zmp};
+use gait::Robot;
 use model::{JointVector, Mechanism, Side};
+use node::configuration::{ConfigFiles, Errors};
+use operator::script::{self, ScriptError};
+use paper::{Reading, Scenario};
 use plant::Disturbances;
 use serde::Serialize;
-use synthesis::{Recording, StickFigure};
+use synthesis::{GaitRecording, StickFigure};
 
-use super::print;
-use crate::configuration::{ConfigOptions, Errors, Robot};
-use crate::failure::{Failure, Outcome};
-use crate::paper::{Reading, Scenario};
-use crate::script::{self, ScriptError};
+use super::config_options::ConfigOptions;
+use crate::error::CliError;
+use crate::output::print;
+use crate::status::Status;
 
-/// Read every configuration file, and list every error of all of them, or the facts
+/// Validate all configuration files; list every error, or print a summary
 #[derive(Clone, Debug, clap::Args)]
-pub struct Check {
+pub struct CheckArgs {
     #[command(flatten)]
     config: ConfigOptions,
 }
 
-/// The robot and its walk in a few numbers.
+/// Summary of the robot and its nominal walk.
 #[derive(Debug, Serialize)]
 struct Facts {
     name: String,
@@ -36,24 +40,25 @@ struct Facts {
     zmp_residual_mm: f64,
 }
 
-impl Check {
-    pub fn run(self, json: bool) -> Result<Outcome, Failure> {
+impl CheckArgs {
+    pub fn run(self, json: bool) -> Result<Status, CliError> {
         let mut errors = Errors::default();
-        let robot = self.config.robot(&mut errors);
-        self.config.controller(&mut errors);
-        self.config.plant(&mut errors);
-        self.config.realtime(&mut errors);
-        check_others(&self.config, &mut errors);
+        let files = self.config.files();
+        let robot = files.robot(&mut errors);
+        files.controller(&mut errors);
+        files.plant(&mut errors);
+        files.realtime(&mut errors);
+        check_others(&files, &mut errors);
         let facts = Facts::of(&errors.finish(robot)?);
         print(json, &facts)?;
-        Ok(Outcome::Fine)
+        Ok(Status::Success)
     }
 }
 
-/// Checks what else lies in the folder: other mechanisms, recordings, scripts, disturbances, the paper's figures.
-fn check_others(config: &ConfigOptions, errors: &mut Errors) {
-    // A folder that cannot be read was noted already, once for each file that must be there.
-    let Ok(entries) = fs::read_dir(&config.config) else { return };
+/// Checks the other files in the folder: mechanisms, recorded gaits, scripts, disturbances, the paper's figures.
+fn check_others(config: &ConfigFiles, errors: &mut Errors) {
+    // A folder that cannot be read has been noted already, with each file that must be in it.
+    let Ok(entries) = fs::read_dir(&config.folder) else { return };
     let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     files.sort();
     for file in files.iter().filter(|file| **file != config.mechanism_file()) {
@@ -63,13 +68,13 @@ fn check_others(config: &ConfigOptions, errors: &mut Errors) {
         } else if name.starts_with("disturbances") && name.ends_with(".toml") {
             errors.note(Disturbances::load(file));
         } else if name.starts_with("recorded") && name.ends_with(".csv") {
-            errors.note(Recording::load(file));
+            errors.note(GaitRecording::load(file));
         } else if name.ends_with(".jsonl") {
             check_script(file, errors);
         } else if name == "paper.toml" {
             errors.note(Reading::load(file));
         } else if name == "scenarios" {
-            Scenario::load_all(file, errors);
+            errors.note(Scenario::load_all(file));
         }
     }
 }
@@ -85,8 +90,8 @@ fn check_script(file: &Path, errors: &mut Errors) {
 impl Facts {
     fn of(Robot { mechanism, nominal }: &Robot) -> Self {
         let tree = Tree::new(mechanism);
-        let standing = Kinematics::standing(&tree, &JointVector::ZERO);
-        let start = Kinematics::standing(&tree, &nominal.at(0.0).angles);
+        let standing = Kinematics::fixed_base(&tree, &JointVector::ZERO);
+        let start = Kinematics::fixed_base(&tree, &nominal.at(0.0).angles);
         let step_length = -start.sole_to_world(mechanism, Side::Left).translation.x;
         let residuals = nominal.rows.iter().map(|row| zmp(&(row.ground_gravity + row.ground_dynamic)));
         let residual = residuals.map(|zmp| zmp.map_or(f64::INFINITY, |zmp| zmp.norm())).fold(0.0, f64::max);

@@ -2,26 +2,29 @@
 
 use std::path::Path;
 
-use ::record::{Note, Origin};
+use controller::Driver;
+use node::admission_worker::ClockedWorker;
+use node::configuration::{self, CONTROLLER, Errors};
+use node::controller_loop::run_controller;
+use node::cycle::{Clock, Cycles};
+use node::interrupt::Interrupt;
+use node::request_bridge::RequestBridge;
+use node::request_queue::{CAPACITY, RequestQueue};
+use node::summary::ControllerSummary;
+use node::{realtime, recorder};
+use record::{Metadata, Provenance};
 use runtime::Rate;
-use wire::ControllerEnd;
+use wire::ControllerPorts;
 
-use super::{InstanceOption, LoopOptions, PartOptions, print};
-use crate::advisor::Advisor;
-use crate::clerk::Clerk;
-use crate::configuration::{CONTROLLER, ConfigOptions, Errors};
-use crate::failure::{Failure, Outcome};
-use crate::inbox::{CAPACITY, Inbox};
-use crate::interrupt::Interrupt;
-use crate::realtime;
-use crate::record;
-use crate::run_controller::run_controller;
-use crate::summary::ControllerSummary;
-use crate::turns::{Clock, Turns};
+use super::config_options::ConfigOptions;
+use super::options::{ChildOptions, InstanceOption, LoopOptions};
+use crate::error::CliError;
+use crate::output::print;
+use crate::status::Status;
 
-/// Run the controller alone: it waits for its plant, then walks until it is asked otherwise
+/// Run the controller process: it waits for its plant, then walks until a request changes that
 #[derive(Clone, Debug, clap::Args)]
-pub struct Controller {
+pub struct ControllerArgs {
     #[command(flatten)]
     instance: InstanceOption,
     #[command(flatten)]
@@ -29,68 +32,71 @@ pub struct Controller {
     #[command(flatten)]
     runs: LoopOptions,
     #[command(flatten)]
-    part: PartOptions,
+    child: ChildOptions,
 }
 
-/// How far the threads beside the loop are below it in priority: above every ordinary thread, or requests would wait for
-/// whatever else the machine does; and a forecast takes long beside carrying a letter.
-const CLERK_BELOW: u8 = 1;
-const ADVISOR_BELOW: u8 = 2;
+/// How far the priorities of the threads beside the loop are below the loop's. Both are above ordinary threads, so that
+/// requests do not wait for other load; evaluating a request takes longer than transferring one.
+const BRIDGE_BELOW: u8 = 1;
+const ADMISSION_BELOW: u8 = 2;
 
-impl Controller {
-    pub fn run(self, json: bool) -> Result<Outcome, Failure> {
-        self.part.bind()?;
+impl ControllerArgs {
+    pub fn run(self, json: bool) -> Result<Status, CliError> {
+        self.child.bind()?;
         let interrupt = Interrupt::listen()?;
 
         let mut errors = Errors::default();
-        let loaded = self.config.robot(&mut errors).zip(self.config.controller(&mut errors));
-        let loaded = loaded.zip(self.config.realtime(&mut errors));
+        let files = self.config.files();
+        let loaded = files.robot(&mut errors).zip(files.controller(&mut errors));
+        let loaded = loaded.zip(files.realtime(&mut errors));
         let ((robot, parameters), realtime) = errors.finish(loaded)?;
         let (clock, rate, fingerprint) = (self.runs.clock(), realtime.rate, robot.mechanism.fingerprint);
-        let mut controller = robot.controller(parameters, clock, self.runs.from_stand)?;
+        let controller = configuration::controller(&robot, parameters, clock, self.runs.from_stand)?;
 
-        let ControllerEnd { mut setpoints, measurements, requests, reports } =
-            ControllerEnd::connect(&self.instance.at_rate(rate)?, fingerprint)?;
-        let mut turns = Turns::new(realtime.pace(clock), measurements, "plant", self.runs.ticks(rate), interrupt);
-        let mut inbox = Inbox::new(Clerk::new(requests, clock, CAPACITY, realtime.controller.below(CLERK_BELOW))?);
-        let mut advisor = Advisor::new(clock, realtime.controller.below(ADVISOR_BELOW));
+        let ControllerPorts { mut setpoints, measurements, requests, reports } =
+            ControllerPorts::connect(&self.instance.at_rate(rate)?, fingerprint)?;
+        let mut cycles = Cycles::new(realtime.timing(clock), measurements, "plant", self.runs.ticks(rate), interrupt);
+        let mut queue =
+            RequestQueue::new(RequestBridge::new(requests, clock, CAPACITY, realtime.controller.below(BRIDGE_BELOW))?);
+        let worker = ClockedWorker::new(clock, realtime.controller.below(ADMISSION_BELOW));
+        let mut driver = Driver { controller, worker };
         // Who answers may run wherever there is room; who writes down has time.
         realtime.keep_off_the_loop(clock);
-        let (mut record, record_end) = record::of_controller(clock, rate, self.recorded(rate, fingerprint)?, reports)?;
+        let (mut recorder, recorder_thread) =
+            recorder::of_controller(clock, rate, self.recorded(rate, fingerprint)?, reports)?;
 
-        // Last: the other threads are not to keep to the loop's core.
+        // Last: the other threads must not be pinned to the loop's core.
         let _granted = realtime::enter(&realtime.controller, clock, "controller");
         let run = run_controller(
-            &mut controller,
-            &mut turns,
+            &mut driver,
+            &mut cycles,
             &mut setpoints,
-            &mut inbox,
-            &mut advisor,
-            &mut record,
+            &mut queue,
+            &mut recorder,
             realtime.hold_after_misses,
         );
-        let requests = inbox.close(&mut record);
-        drop(record);
-        let log_gaps = record_end.finish()?;
-        let run = run.map_err(Failure::new)?;
+        let requests = queue.close(&mut recorder);
+        drop(recorder);
+        let log_gaps = recorder_thread.finish()?;
+        let run = run.map_err(CliError::new)?;
 
         let summary = ControllerSummary {
             ticks: run.ticks,
             half_steps: run.half_steps,
-            mode: run.mode.map_or(String::new(), |mode| crate::exchange::report::mode(mode).text().to_owned()),
+            mode: run.mode.map_or(String::new(), |mode| mode.text().to_owned()),
             requests,
             deadline_misses: run.missed,
-            kept_time: (clock == Clock::Realtime).then_some(run.kept_time),
+            timing: (clock == Clock::Realtime).then_some(run.timing),
             log_gaps,
         };
         print(json, &summary)?;
-        Ok(Outcome::fine_if(run.mode != Some(controller::Mode::Fallen)))
+        Ok(Status::success_if(run.mode != Some(interface::Mode::Fallen)))
     }
 
     /// Where to record to, if anywhere, and what the run begins with.
-    fn recorded(&self, rate: Rate, fingerprint: u64) -> Result<Option<(&Path, Origin)>, Failure> {
-        let Some(folder) = self.part.out.as_deref() else { return Ok(None) };
-        let how = Note::new("controller", self.runs.words(&self.instance, rate, fingerprint));
-        Ok(Some((folder, Origin { notes: vec![how], files: self.config.texts(CONTROLLER)? })))
+    fn recorded(&self, rate: Rate, fingerprint: u64) -> Result<Option<(&Path, Provenance)>, CliError> {
+        let Some(folder) = self.child.out.as_deref() else { return Ok(None) };
+        let how = Metadata::new("controller", self.runs.words(&self.instance, rate, fingerprint));
+        Ok(Some((folder, Provenance { metadata: vec![how], files: self.config.files().texts(CONTROLLER)? })))
     }
 }

@@ -3,68 +3,70 @@
 use std::path::PathBuf;
 
 use clap::Subcommand;
+use config::Config;
+use interchange::mjcf::mjcf_text;
+use interchange::urdf::urdf_text;
 use model::Mechanism;
+use node::configuration::Errors;
+use node::realtime::RealtimeParameters;
+use wire::python::python_messages;
 
-use super::print_line;
-use crate::configuration::Errors;
-use crate::failure::{Failure, Outcome};
-use crate::mjcf::mjcf_text;
-use crate::python_messages::python_messages;
-use crate::realtime::RealtimeParameters;
-use crate::urdf::urdf_text;
+use crate::error::CliError;
+use crate::output::print_line;
+use crate::status::Status;
 
-/// Write the robot for other programs
+/// Export the robot or the messages for other programs
 #[derive(Clone, Debug, clap::Args)]
-pub struct Export {
+pub struct ExportArgs {
     #[command(subcommand)]
     format: Format,
 }
 
 #[derive(Clone, Debug, Subcommand)]
 enum Format {
-    /// As URDF, on stdout or into a file
+    /// The robot as URDF
     Urdf {
-        /// The robot
+        /// Robot description
         #[arg(long, value_name = "FILE", default_value = "config/mechanism.toml")]
         mechanism: PathBuf,
-        /// Where to; stdout if absent
+        /// Output file [default: stdout]
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
-    /// As MJCF, on stdout or into a file: robot, floor and torque motors, ready for MuJoCo
+    /// The robot as MJCF for MuJoCo, with floor and torque motors
     Mjcf {
-        /// The robot
+        /// Robot description
         #[arg(long, value_name = "FILE", default_value = "config/mechanism.toml")]
         mechanism: PathBuf,
         /// Friction, slope, payload and integration step
         #[arg(long, value_name = "FILE", default_value = "config/plant.toml")]
         plant: PathBuf,
-        /// How many control periods there are in a second
+        /// Real-time parameters; they set the control rate
         #[arg(long, value_name = "FILE", default_value = "config/realtime.toml")]
         realtime: PathBuf,
-        /// Where to; stdout if absent
+        /// Output file [default: stdout]
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
-    /// The messages in shared memory as a Python module, on stdout or into a file
+    /// The shared-memory messages as a Python module
     Python {
-        /// Where to; stdout if absent
+        /// Output file [default: stdout]
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
 }
 
-impl Export {
-    pub fn run(self) -> Result<Outcome, Failure> {
+impl ExportArgs {
+    pub fn run(self) -> Result<Status, CliError> {
         let (text, out) = match self.format {
             Format::Urdf { mechanism, out } => {
-                let mechanism = Mechanism::load(&mechanism).map_err(Failure::bad_input)?;
-                (urdf_text(&mechanism).map_err(Failure::new)?, out)
+                let mechanism = Mechanism::load(&mechanism).map_err(CliError::bad_input)?;
+                (urdf_text(&mechanism).map_err(CliError::new)?, out)
             }
             Format::Mjcf { mechanism, plant, realtime, out } => {
                 let mut errors = Errors::default();
                 let mechanism = errors.note(Mechanism::load(&mechanism));
-                let parameters = errors.note(plant::Parameters::load(&plant));
+                let parameters = errors.note(plant::PlantParameters::load(&plant));
                 let realtime = errors.note(RealtimeParameters::load(&realtime));
                 let ((mechanism, parameters), realtime) = errors.finish(mechanism.zip(parameters).zip(realtime))?;
                 (mjcf_text(&mechanism, &parameters, realtime.rate.period_s()), out)
@@ -74,9 +76,9 @@ impl Export {
         match out {
             None => print_line(text.trim_end())?,
             Some(file) => {
-                std::fs::write(&file, text).map_err(|error| Failure::new(format!("{}: {error}", file.display())))?;
+                std::fs::write(&file, text).map_err(CliError::file(&file))?;
             }
         }
-        Ok(Outcome::Fine)
+        Ok(Status::Success)
     }
 }

@@ -3,19 +3,20 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use interchange::import::{NamedText, import};
 use model::{Joint, Mechanism};
 use serde::Serialize;
 
-use super::{print_json, print_line};
-use crate::failure::{Failure, Outcome};
-use crate::import::{NamedText, import};
+use crate::error::CliError;
+use crate::output::{print_json, print_line};
+use crate::status::Status;
 
-/// Read another biped from its URDF: a configuration folder for it, all but its half-step
+/// Import a biped from its URDF into a configuration folder (without its nominal half-step)
 #[derive(Clone, Debug, clap::Args)]
-pub struct Import {
-    /// The biped
+pub struct ImportArgs {
+    /// URDF of the biped
     urdf: PathBuf,
-    /// Which of its joints is which of ours, its soles and motors; see docs/import.md
+    /// Joint map: URDF joints, soles and motors; see docs/import.md
     #[arg(long, value_name = "FILE")]
     map: PathBuf,
     /// Folder to write mechanism.toml into, and controller.toml and plant.toml if it has none
@@ -26,9 +27,9 @@ pub struct Import {
     parameters: PathBuf,
 }
 
-/// What came of it.
+/// Result of the import.
 #[derive(Debug, Serialize)]
-struct ImportInJson {
+struct ImportReport {
     name: String,
     mass_kg: f64,
     leg_m: f64,
@@ -37,26 +38,26 @@ struct ImportInJson {
     synthesize: String,
 }
 
-impl Import {
-    pub fn run(self, json: bool) -> Result<Outcome, Failure> {
+impl ImportArgs {
+    pub fn run(self, json: bool) -> Result<Status, CliError> {
         let (urdf, map) = (read(&self.urdf)?, read(&self.map)?);
         let (urdf_file, map_file) = (self.urdf.display().to_string(), self.map.display().to_string());
         let imported = import(NamedText { text: &urdf, file: &urdf_file }, NamedText { text: &map, file: &map_file })?;
 
         let mechanism_file = self.out.join("mechanism.toml");
-        fs::create_dir_all(&self.out).map_err(|error| cannot(&self.out, &error))?;
-        fs::write(&mechanism_file, &imported.text).map_err(|error| cannot(&mechanism_file, &error))?;
+        fs::create_dir_all(&self.out).map_err(CliError::file(&self.out))?;
+        fs::write(&mechanism_file, &imported.text).map_err(CliError::file(&mechanism_file))?;
         let mut written = vec![mechanism_file];
         for name in ["controller.toml", "plant.toml"] {
             let (from, to) = (self.parameters.join(name), self.out.join(name));
             if !to.exists() {
-                fs::copy(&from, &to).map_err(|error| cannot(&from, &error))?;
+                fs::copy(&from, &to).map_err(CliError::file(&from))?;
                 written.push(to);
             }
         }
 
         let mechanism = imported.mechanism;
-        let report = ImportInJson {
+        let report = ImportReport {
             mass_kg: mechanism.mass(),
             leg_m: leg_length(&mechanism),
             synthesize: synthesize_line(&mechanism, &self.out),
@@ -69,30 +70,26 @@ impl Import {
         } else {
             print_line(in_words(&report))?
         }
-        Ok(Outcome::Fine)
+        Ok(Status::Success)
     }
 }
 
-fn read(file: &Path) -> Result<String, Failure> {
-    model::config::read(file).map_err(Failure::bad_input)
+fn read(file: &Path) -> Result<String, CliError> {
+    config::read_text(file).map_err(CliError::bad_input)
 }
 
-fn cannot(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::new(format!("{}: {error}", path.display()))
-}
-
-/// Hip to ankle of the stretched leg [m].
+/// Hip to ankle of the stretched leg (m).
 fn leg_length(mechanism: &Mechanism) -> f64 {
     [Joint::LeftKnee, Joint::LeftAnklePitch].iter().map(|joint| mechanism.links[*joint].origin.norm()).sum()
 }
 
-/// The default half-step in the leg's proportions: lengths as the leg, time as its root (Froude's law).
+/// A command that makes a half-step for this leg length: lengths scale as the leg, times as its square root (Froude's law).
 fn synthesize_line(mechanism: &Mechanism, folder: &Path) -> String {
-    /// Leg of the robot for which the defaults were chosen [m].
+    /// Leg length of the robot for which the defaults were chosen (m).
     const DEFAULT_LEG: f64 = 0.856;
-    /// Its ankle above the sole [m].
+    /// Height of its ankle above the sole (m).
     const DEFAULT_ANKLE: f64 = 0.07;
-    let default = synthesis::Parameters::default();
+    let default = synthesis::SynthesisParameters::default();
     let leg = leg_length(mechanism);
     let scale = leg / DEFAULT_LEG;
     let hip_height = mechanism.sole.ankle_height + (default.hip_height - DEFAULT_ANKLE) * scale;
@@ -110,7 +107,7 @@ fn synthesize_line(mechanism: &Mechanism, folder: &Path) -> String {
     )
 }
 
-fn in_words(report: &ImportInJson) -> String {
+fn in_words(report: &ImportReport) -> String {
     let mut text = format!("{}: {:.2} kg, legs of {:.3} m\n", report.name, report.mass_kg, report.leg_m);
     for change in &report.changes {
         text += &format!("  {change}\n");

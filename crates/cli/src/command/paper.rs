@@ -2,27 +2,29 @@
 
 use std::path::PathBuf;
 
+use ::paper::{Figure, RAMPS, Reading, Scenario, TableRow, page, paper_figure, reproduce, table};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use config::Config;
 use gait::RampKind;
+use node::configuration::Errors;
 
-use super::{print_json, print_line, write_pictures};
-use crate::configuration::{ConfigOptions, Errors};
-use crate::failure::{Failure, Outcome};
-use crate::paper::{Figure, RAMPS, Reading, Row, Scenario, page, reproduce, table};
-use crate::picture;
+use super::config_options::ConfigOptions;
+use crate::error::CliError;
+use crate::output::{print_json, print_line, write_files};
+use crate::status::Status;
 
-/// Reproduce the paper's walking figures: footprints, ZMP and verdict, beside what the paper says
+/// Reproduce the paper's walking figures: footprints, ZMP and verdict, beside the paper's
 #[derive(Clone, Debug, clap::Args)]
-pub struct Paper {
+pub struct PaperArgs {
     /// Only this figure
     #[arg(long, value_name = "N")]
     figure: Option<u64>,
     #[command(flatten)]
     config: ConfigOptions,
-    /// How a turn grows through a half-step, if not as the folder's paper.toml says
+    /// Ramp of a turn within a half-step [default: paper.toml of the folder]
     #[arg(long, value_name = "RAMP", value_parser = ramp())]
     turn_ramp: Option<RampKind>,
-    /// How a step extension grows through a half-step, if not as the folder's paper.toml says
+    /// Ramp of a step extension within a half-step [default: paper.toml of the folder]
     #[arg(long, value_name = "RAMP", value_parser = ramp())]
     extension_ramp: Option<RampKind>,
     /// Draw the figures into this folder, and a page with all of them
@@ -30,13 +32,14 @@ pub struct Paper {
     out: Option<PathBuf>,
 }
 
-impl Paper {
-    pub fn run(self, json: bool) -> Result<Outcome, Failure> {
+impl PaperArgs {
+    pub fn run(self, json: bool) -> Result<Status, CliError> {
         let mut errors = Errors::default();
-        let robot = self.config.robot(&mut errors);
-        let reading = errors.note(Reading::load(&self.config.config.join("paper.toml")));
-        let folder = self.config.config.join("scenarios");
-        let mut scenarios = Scenario::load_all(&folder, &mut errors);
+        let files = self.config.files();
+        let robot = files.robot(&mut errors);
+        let reading = errors.note(Reading::load(files.folder.join("paper.toml")));
+        let folder = files.folder.join("scenarios");
+        let mut scenarios = errors.note(Scenario::load_all(&folder)).unwrap_or_default();
         if let Some(number) = self.figure {
             let numbers: Vec<String> = scenarios.iter().map(|scenario| scenario.figure.to_string()).collect();
             scenarios.retain(|scenario| scenario.figure == number);
@@ -52,24 +55,24 @@ impl Paper {
         };
 
         let figures = scenarios.iter().map(|scenario| reproduce(&robot, reading, scenario));
-        let figures: Vec<Figure> = figures.collect::<Result<_, _>>().map_err(Failure::bad_input)?;
+        let figures: Vec<Figure> = figures.collect::<Result<_, _>>().map_err(CliError::bad_input)?;
         if json {
-            print_json(&figures.iter().map(Row::of).collect::<Vec<_>>())?;
+            print_json(&figures.iter().map(TableRow::of).collect::<Vec<_>>())?;
         } else {
             print_line(table(&figures).trim_end())?;
         }
-        let Some(out) = self.out else { return Ok(Outcome::Fine) };
-        let pictures = figures.iter().map(|figure| picture::paper_figure(figure, &robot, reading));
-        let pictures: Vec<String> = pictures.collect::<Result<_, _>>().map_err(Failure::bad_input)?;
+        let Some(out) = self.out else { return Ok(Status::Success) };
+        let pictures = figures.iter().map(|figure| paper_figure(figure, &robot, reading));
+        let pictures: Vec<String> = pictures.collect::<Result<_, _>>().map_err(CliError::bad_input)?;
         let names: Vec<String> =
             figures.iter().map(|figure| format!("figure_{:02}.svg", figure.scenario.figure)).collect();
         let page = page(&figures, &pictures);
         let files = names.iter().map(String::as_str).zip(pictures).chain([("index.html", page)]);
-        write_pictures(&out, &files.collect::<Vec<_>>())?;
+        write_files(&out, &files.collect::<Vec<_>>())?;
         if !json {
             print_line(format_args!("drawn: {}", out.join("index.html").display()))?;
         }
-        Ok(Outcome::Fine)
+        Ok(Status::Success)
     }
 }
 

@@ -2,61 +2,63 @@
 
 use std::path::{Path, PathBuf};
 
-use ::record::origin_of;
+use config::Config;
 use model::Mechanism;
+use node::configuration::MECHANISM;
+use plots::picture;
+use plots::run_log::{RunLog, write_rows};
+use record::provenance_of;
 use serde::Serialize;
 
-use super::{print, write_pictures};
-use crate::configuration::MECHANISM;
-use crate::failure::{Failure, Outcome};
-use crate::picture;
-use crate::run_log::{RunLog, write_rows};
+use crate::error::CliError;
+use crate::output::{print, write_files};
+use crate::status::Status;
 
-/// Draw the pictures of a recorded run
+/// Draw the plots of a recorded run
 #[derive(Clone, Debug, clap::Args)]
-pub struct Plot {
+pub struct PlotArgs {
     /// A recording, or the folder of a run
     #[arg(value_name = "RUN")]
     run: PathBuf,
-    /// Folder for the pictures; the recording's own if absent
+    /// Output folder [default: the folder of the recording]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Write plant.csv and controller.csv, too
+    /// Also write plant.csv and controller.csv
     #[arg(long)]
     csv: bool,
 }
 
-/// What was written.
+/// Names of the written files.
 #[derive(Clone, Debug, Serialize)]
-struct Written {
+struct PlotFiles {
     folder: PathBuf,
     files: Vec<String>,
 }
 
-impl Plot {
-    pub fn run(self, json: bool) -> Result<Outcome, Failure> {
-        let origin = origin_of(&self.run)?;
+impl PlotArgs {
+    pub fn run(self, json: bool) -> Result<Status, CliError> {
+        let origin = provenance_of(&self.run)?;
         let run = self.run.display();
         let text =
-            origin.file(MECHANISM).ok_or_else(|| Failure::bad_input(format!("{run}: has no {MECHANISM} attached")))?;
-        let mechanism = Mechanism::from_toml(text, &format!("{run}: {MECHANISM}")).map_err(Failure::bad_input)?;
+            origin.file(MECHANISM).ok_or_else(|| CliError::bad_input(format!("{run}: has no {MECHANISM} attached")))?;
+        let mechanism = Mechanism::from_toml(text, &format!("{run}: {MECHANISM}")).map_err(CliError::bad_input)?;
         let log = RunLog::read(&self.run)?;
 
         let own = if self.run.is_dir() { Some(self.run.as_path()) } else { self.run.parent() };
         let folder = self.out.clone().or_else(|| own.map(Path::to_owned)).unwrap_or_default();
         let pictures = picture::of_run(&log, &mechanism);
-        write_pictures(&folder, &pictures)?;
+        write_files(&folder, &pictures)?;
         let mut written: Vec<String> = pictures.iter().map(|(name, _)| (*name).to_owned()).collect();
         if self.csv {
             let rows = [write_rows(&folder, &log.plant)?, write_rows(&folder, &log.controller)?];
             written.extend(rows.iter().filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned())));
         }
-        print(json, &Written { folder, files: written })?;
-        Ok(Outcome::Fine)
+        print(json, &PlotFiles { folder, files: written })?;
+        Ok(Status::Success)
     }
 }
 
-impl std::fmt::Display for Written {
+impl std::fmt::Display for PlotFiles {
     fn fmt(&self, out: &mut std::fmt::Formatter) -> std::fmt::Result {
         let folder = if self.folder.as_os_str().is_empty() { ".".into() } else { self.folder.display().to_string() };
         write!(out, "{} are in {folder}", self.files.join(", "))

@@ -1,23 +1,25 @@
-//! `halfstep replay`: whether the controller would do the same again.
+//! `halfstep replay`: re-runs the controller on recorded inputs, and compares the setpoints.
 
 use std::path::PathBuf;
 
-use super::print;
-use crate::failure::{Failure, Outcome};
-use crate::replay::replay;
+use node::replay::replay;
 
-/// Feed the controller what was recorded, and compare its setpoints with the recorded ones, bit for bit
+use crate::error::CliError;
+use crate::output::print;
+use crate::status::Status;
+
+/// Re-run the controller on the recorded inputs, and report the first setpoint that differs in any bit
 #[derive(Clone, Debug, clap::Args)]
-pub struct Replay {
+pub struct ReplayArgs {
     /// A recording, or the folder of a run
     #[arg(value_name = "RUN")]
     run: PathBuf,
 }
 
-impl Replay {
-    pub fn run(self, json: bool) -> Result<Outcome, Failure> {
+impl ReplayArgs {
+    pub fn run(self, json: bool) -> Result<Status, CliError> {
         let outcome = replay(&self.run)?;
         print(json, &outcome)?;
-        Ok(Outcome::fine_if(outcome.is_identical()))
+        Ok(Status::success_if(outcome.is_identical()))
     }
 }

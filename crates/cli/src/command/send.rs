@@ -1,99 +1,107 @@
-//! `halfstep send`: one request, and what became of it.
+//! `halfstep send`: sends one request, and prints the reply.
 //!
-//! It lasts until another request changes it and holds command of nothing; with `--for` it holds command for that time,
-//! and then the walk comes to a stand.
+//! The request stays in effect until another one changes it, and holds no authority; with `--for` it holds authority for
+//! that time, after which the robot stops.
 
+use interface::{GaitChange, Intent, Lifetime, Request, Source, Verdict};
 use std::time::Duration;
 
 use clap::Subcommand;
-use wire::{Intent, Lasting, OperatorEnd, Request, Source, Verdict};
+use operator::reply_text::{ReplyJson, reply_text};
+use wire::OperatorPorts;
 
-use super::{InstanceOption, duration, print_json, print_line};
-use crate::failure::{Failure, Outcome};
-use crate::words::{self, ReplyInJson};
+use super::options::{InstanceOption, duration};
+use crate::error::CliError;
+use crate::output::{print_json, print_line};
+use crate::status::Status;
 
-/// Ask the running controller for something, and print its reply
+/// Send a request to a running controller and print the reply
 #[derive(Clone, Debug, clap::Args)]
-pub struct Send {
+pub struct SendArgs {
     #[command(flatten)]
     instance: InstanceOption,
-    /// Keep command for this time, e.g. 5s: sources with less priority are refused, and at its end, unless something else
-    /// was sent, the walk comes to a stand. Without it what is asked lasts until another request changes it
+    /// Hold control authority for this long, e.g. 5s: lower-priority sources are refused, and the robot stops when it
+    /// expires unless another request has arrived [default: the request stays in effect until replaced]
     #[arg(long = "for", value_name = "DURATION", value_parser = duration, global = true)]
     duration: Option<Duration>,
     #[command(subcommand)]
-    asked: Asked,
+    request: RequestKind,
 }
 
 #[derive(Clone, Copy, Debug, Subcommand)]
-enum Asked {
-    /// Turn the walk by this much per full step
+enum RequestKind {
+    /// Set the change of heading per full step
     #[command(allow_negative_numbers = true)]
     Turn {
         /// Degrees, positive to the left
         degrees: f64,
     },
-    /// Walk so many times as fast as the nominal
+    /// Set the speed as a multiple of the nominal speed
     #[command(allow_negative_numbers = true)]
     Speed {
         /// 1 is the nominal speed
         factor: f64,
     },
-    /// Extend the steps
+    /// Set the step extension
     #[command(allow_negative_numbers = true)]
     Extend {
         /// Degrees at the hips, negative for shorter steps
         degrees: f64,
     },
-    /// Walk on
+    /// Start walking, or walk on
     Walk,
-    /// Step in place, turning if a turn is asked
+    /// Step in place, turning if a turn is in effect
     InPlace,
-    /// Come to a stand at the end of the half-step
+    /// Stop with the feet side by side; takes up to two half-steps
     Stop,
-    /// Keep the posture
+    /// Stop in stride, one foot before the other
     Hold,
-    /// Take back a fault
+    /// Clear a latched fault; after a fall, return to a stand
     Reset,
 }
 
-/// How long the controller may take to answer.
-const PATIENCE: Duration = Duration::from_secs(2);
+/// How long the controller may take to reply.
+const REPLY_TIMEOUT: Duration = Duration::from_secs(2);
 
-impl Send {
-    pub fn run(self, json: bool) -> Result<Outcome, Failure> {
+impl SendArgs {
+    pub fn run(self, json: bool) -> Result<Status, CliError> {
         let request = match self.duration {
-            None => self.asked.request(),
+            None => self.request.message(),
             Some(duration) => Request {
-                lasting: Lasting::WhileSpeaking,
-                age_limit: Some(duration.as_secs_f64()),
-                ..self.asked.request()
+                lifetime: Lifetime::Streamed,
+                timeout: Some(duration.as_secs_f64()),
+                ..self.request.message()
             },
         };
-        let operator = OperatorEnd::connect(&self.instance.instance()?)?;
-        let reply = operator.requests.ask(&(&request).into(), PATIENCE)?.checked().map_err(Failure::new)?;
+        let operator = OperatorPorts::connect(&self.instance.instance()?)?;
+        let reply = operator.requests.ask(&(&request).into(), REPLY_TIMEOUT)?.checked().map_err(CliError::new)?;
         if json {
-            print_json(&ReplyInJson::from(&reply))?
+            print_json(&ReplyJson::from(&reply))?
         } else {
-            print_line(words::reply(&request, &reply))?
+            print_line(reply_text(&request, &reply))?
         }
-        Ok(Outcome::fine_if(reply.verdict != Verdict::Refused))
+        Ok(Status::success_if(reply.verdict != Verdict::Refused))
     }
 }
 
-impl Asked {
-    fn request(self) -> Request {
-        let nothing = Request::by(Source::Console);
+impl RequestKind {
+    fn message(self) -> Request {
+        let nothing = Request::new(Source::Console);
+        let change = |gait| Request { gait, ..nothing };
         let intent = |intent| Request { intent: Some(intent), ..nothing };
         match self {
-            Asked::Turn { degrees } => Request { turn: Some(degrees.to_radians()), ..nothing },
-            Asked::Speed { factor } => Request { speed: Some(factor), ..nothing },
-            Asked::Extend { degrees } => Request { extension: Some(degrees.to_radians()), ..nothing },
-            Asked::Walk => intent(Intent::Walk),
-            Asked::InPlace => intent(Intent::InPlace),
-            Asked::Stop => intent(Intent::Stop),
-            Asked::Hold => intent(Intent::Hold),
-            Asked::Reset => intent(Intent::Reset),
+            RequestKind::Turn { degrees } => {
+                change(GaitChange { turn: Some(degrees.to_radians()), ..GaitChange::NONE })
+            }
+            RequestKind::Speed { factor } => change(GaitChange { speed: Some(factor), ..GaitChange::NONE }),
+            RequestKind::Extend { degrees } => {
+                change(GaitChange { extension: Some(degrees.to_radians()), ..GaitChange::NONE })
+            }
+            RequestKind::Walk => intent(Intent::Walk),
+            RequestKind::InPlace => intent(Intent::InPlace),
+            RequestKind::Stop => intent(Intent::Stop),
+            RequestKind::Hold => intent(Intent::Hold),
+            RequestKind::Reset => intent(Intent::Reset),
         }
     }
 }

@@ -1,21 +1,23 @@
 //! `halfstep stream`: requests line by line while the robot walks, each with its reply.
 
+use interface::{Intent, Request, Source, Verdict};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::Duration;
 
+use node::interrupt::Interrupt;
+use operator::command_stream::CommandStream;
+use operator::reply_text::{ReplyJson, reply_text};
+use operator::script::{Reader, ScriptError, TimedRequest};
 use serde::Serialize;
-use wire::{Intent, Request, Source, Verdict};
 
-use super::{InstanceOption, duration, print_json, print_line};
-use crate::failure::{Failure, Outcome};
-use crate::interrupt::Interrupt;
-use crate::script::{Reader, ScriptError, Step};
-use crate::voice::Voice;
-use crate::words::{self, ReplyInJson};
+use super::options::{InstanceOption, duration};
+use crate::error::CliError;
+use crate::output::{print_json, print_line};
+use crate::status::Status;
 
-/// Ask the running controller for what a file or pipe says, line by line, and print each reply
+/// Send JSON-lines commands from a file or stdin to a running controller and print each reply
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "Each line is a JSON object such as {\"t\":1.5,\"turn_deg\":10,\"speed\":1.2,\
 \"extension_deg\":0,\"intent\":\"stop\"}: t in seconds of the controller's time since the stream began, or absent for at \
@@ -23,14 +25,14 @@ once; the others as needed. A line that is wrong is reported with its number, an
 While the stream is open it is in command, also between two lines: sources with less priority are refused. If it is \
 killed or interrupted, the walk comes to a stand after the age limit. At the end of the input it takes its leave: what it \
 asked lasts until another request changes it, unless --stop-at-end.")]
-pub struct Stream {
+pub struct StreamArgs {
     #[command(flatten)]
     instance: InstanceOption,
     /// File with one JSON object per line; - is stdin
     #[arg(value_name = "FILE", default_value = "-")]
     file: String,
-    /// How long the walk goes on when nothing is heard of this stream any more, e.g. 500ms; the controller's own limit
-    /// (config/controller.toml) if absent, which in lockstep is none
+    /// Command timeout: the robot stops when the stream sends nothing for this long, e.g. 500ms [default: the
+    /// controller's own, config/controller.toml; none in lockstep]
     #[arg(long, value_name = "DURATION", value_parser = duration)]
     age_limit: Option<Duration>,
     /// Stop the walk at the end of the input: for a pipe from a program, which may end because it crashed
@@ -38,16 +40,16 @@ pub struct Stream {
     stop_at_end: bool,
 }
 
-const GLANCE: Duration = Duration::from_millis(1);
-/// After how many glances it is looked whether the controller has left, which costs more.
-const GLANCES_PER_LOOK: u32 = 100;
+const POLL_INTERVAL: Duration = Duration::from_millis(1);
+/// Polls between two checks that the controller is still there, which cost more.
+const POLLS_PER_CHECK: u32 = 100;
 
 /// A line's reply as JSON.
 #[derive(Serialize)]
 struct LineReply {
     line: u64,
     #[serde(flatten)]
-    reply: ReplyInJson,
+    reply: ReplyJson,
 }
 
 /// A line's error as JSON.
@@ -57,51 +59,53 @@ struct LineError {
     error: String,
 }
 
-impl Stream {
-    pub fn run(self, json: bool) -> Result<Outcome, Failure> {
+impl StreamArgs {
+    pub fn run(self, json: bool) -> Result<Status, CliError> {
         let interrupt = Interrupt::listen()?;
         let (name, source): (&str, Box<dyn Read + std::marker::Send>) = match self.file.as_str() {
             "-" => ("stdin", Box::new(std::io::stdin())),
-            file => (file, Box::new(File::open(file).map_err(|error| Failure::bad_input(format!("{file}: {error}")))?)),
+            file => {
+                (file, Box::new(File::open(file).map_err(|error| CliError::bad_input(format!("{file}: {error}")))?))
+            }
         };
-        let mut voice = Voice::connect(&self.instance.instance()?, self.age_limit)?;
+        let mut stream = CommandStream::connect(&self.instance.instance()?, self.age_limit)?;
         let lines = lines(source)?;
 
         let mut reader = Reader::new(name);
-        let mut all_well = true;
-        while let Some(line) = next_line(&lines, &mut voice, &interrupt)? {
-            let step = match reader.read(&line.map_err(|error| Failure::new(format!("{name}: {error}")))?) {
+        let mut all_granted = true;
+        while let Some(line) = next_line(&lines, &mut stream, &interrupt)? {
+            let timed = match reader.read(&line.map_err(|error| CliError::new(format!("{name}: {error}")))?) {
                 None => continue,
-                Some(Ok(step)) => step,
+                Some(Ok(timed)) => timed,
                 Some(Err(error)) => {
-                    all_well = false;
+                    all_granted = false;
                     print_error(json, &error)?;
                     continue;
                 }
             };
-            let Some(not_before) = wait_for(&step, &mut voice, &interrupt)? else { break };
-            let request = Request { not_before, ..step.request };
-            let reply = voice.ask(&request)?;
-            all_well &= reply.verdict != Verdict::Refused;
+            let Some(not_before) = wait_for(&timed, &mut stream, &interrupt)? else { break };
+            let request = Request { not_before, ..timed.request };
+            let reply = stream.request(&request)?;
+            all_granted &= reply.verdict != Verdict::Refused;
             let line = reader.line();
             if json {
                 print_json(&LineReply { line, reply: (&reply).into() })?;
             } else {
-                print_line(format_args!("{line}: {}", words::reply(&request, &reply)))?;
+                print_line(format_args!("{line}: {}", reply_text(&request, &reply)))?;
             }
         }
-        // Whoever interrupts a stream wants it out of command, not its last word to last.
+        // An interrupted stream is to lose its authority; its last commands must not stay in effect.
         if !interrupt.is_raised() {
             if self.stop_at_end {
-                voice.ask(&Request { intent: Some(Intent::Stop), ..Request::by(Source::Script) })?;
+                stream.request(&Request { intent: Some(Intent::Stop), ..Request::new(Source::Script) })?;
             }
-            voice.take_leave()?;
+            stream.close()?;
         }
-        Ok(Outcome::fine_if(all_well))
+        Ok(Status::success_if(all_granted))
     }
 }
 
-fn print_error(json: bool, error: &ScriptError) -> Result<(), Failure> {
+fn print_error(json: bool, error: &ScriptError) -> Result<(), CliError> {
     if json {
         print_json(&LineError { line: error.line, error: error.to_string() })
     } else {
@@ -110,8 +114,8 @@ fn print_error(json: bool, error: &ScriptError) -> Result<(), Failure> {
     }
 }
 
-/// Lines as they come, read by a thread of its own: a read cannot be called off.
-fn lines(source: Box<dyn Read + std::marker::Send>) -> Result<Receiver<std::io::Result<String>>, Failure> {
+/// Reads lines in a thread of its own: a blocking read cannot be cancelled.
+fn lines(source: Box<dyn Read + std::marker::Send>) -> Result<Receiver<std::io::Result<String>>, CliError> {
     let (sender, lines) = mpsc::sync_channel(1);
     let read = move || {
         for line in BufReader::new(source).lines() {
@@ -124,39 +128,39 @@ fn lines(source: Box<dyn Read + std::marker::Send>) -> Result<Receiver<std::io::
     std::thread::Builder::new()
         .name("lines".to_owned())
         .spawn(read)
-        .map_err(|error| Failure::new(format!("cannot start a thread: {error}")))?;
+        .map_err(|error| CliError::new(format!("cannot start a thread: {error}")))?;
     Ok(lines)
 }
 
 /// The next line; `None` at the end, or when this process was asked to end.
 fn next_line(
     lines: &Receiver<std::io::Result<String>>,
-    voice: &mut Voice,
+    stream: &mut CommandStream,
     interrupt: &Interrupt,
-) -> Result<Option<std::io::Result<String>>, Failure> {
+) -> Result<Option<std::io::Result<String>>, CliError> {
     while !interrupt.is_raised() {
-        match lines.recv_timeout(GLANCE) {
+        match lines.recv_timeout(POLL_INTERVAL) {
             Ok(line) => return Ok(Some(line)),
             Err(RecvTimeoutError::Disconnected) => return Ok(None),
-            Err(RecvTimeoutError::Timeout) => voice.keep_up()?,
+            Err(RecvTimeoutError::Timeout) => stream.keep_alive()?,
         }
     }
     Ok(None)
 }
 
-/// Waits until a step is nearly due, and gives its tick; `None` when this process was asked to end.
-fn wait_for(step: &Step, voice: &mut Voice, interrupt: &Interrupt) -> Result<Option<u64>, Failure> {
-    let mut glances = 0_u32;
+/// Waits until a request is to be sent, and returns its tick; `None` when this process was asked to end.
+fn wait_for(timed: &TimedRequest, stream: &mut CommandStream, interrupt: &Interrupt) -> Result<Option<u64>, CliError> {
+    let mut polls = 0_u32;
     while !interrupt.is_raised() {
-        voice.keep_up()?;
-        if let Some(due) = voice.due(step) {
+        stream.keep_alive()?;
+        if let Some(due) = stream.due(timed) {
             return Ok(Some(due));
         }
-        glances += 1;
-        if glances.is_multiple_of(GLANCES_PER_LOOK) && !voice.is_heard() {
-            return Err(Failure::new("the controller has left; the rest of the stream was not sent"));
+        polls += 1;
+        if polls.is_multiple_of(POLLS_PER_CHECK) && !stream.is_connected() {
+            return Err(CliError::new("the controller has left; the rest of the stream was not sent"));
         }
-        std::thread::sleep(GLANCE);
+        std::thread::sleep(POLL_INTERVAL);
     }
     Ok(None)
 }

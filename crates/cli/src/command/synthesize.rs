@@ -3,25 +3,27 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use config::Config;
 use gait::NominalTable;
 use model::Mechanism;
+use plots::picture;
 use serde::Serialize;
-use synthesis::{LegPattern, Parameters, Recording, Report, synthesize};
+use synthesis::{GaitRecording, LegPattern, SynthesisParameters, SynthesisReport, synthesize};
 
-use super::{print_json, print_line};
-use crate::failure::{Failure, Outcome};
-use crate::picture;
+use crate::error::CliError;
+use crate::output::{print_json, print_line, write_files};
+use crate::status::Status;
 
-/// Make the nominal half-step: legs as prescribed or recorded, the trunk such that the ZMP stays under the ankle
+/// Synthesize the nominal half-step: prescribed or recorded legs, and the trunk that keeps the ZMP under the ankle
 #[derive(Clone, Debug, clap::Args)]
-pub struct Synthesize {
-    /// The robot
+pub struct SynthesizeArgs {
+    /// Robot description
     #[arg(long, value_name = "FILE", default_value = "config/mechanism.toml")]
     mechanism: PathBuf,
-    /// Where to write the half-step
+    /// Output file of the half-step
     #[arg(long, value_name = "FILE", default_value = "config/nominal_half_step.csv")]
     out: PathBuf,
-    /// Shape of the legs' motion, recorded: hip and knee flexion over the gait cycle
+    /// Recorded leg motion: hip and knee flexion over the gait cycle
     #[arg(long, value_name = "FILE")]
     recorded: Option<PathBuf>,
     #[command(flatten)]
@@ -35,31 +37,31 @@ pub struct Synthesize {
 #[derive(Clone, Debug, clap::Args)]
 #[command(allow_negative_numbers = true)]
 struct ParameterOptions {
-    /// Distance between the feet at the swap [m]
+    /// Distance between the feet at the support change (m)
     #[arg(long, value_name = "M")]
     step_length: Option<f64>,
-    /// Duration of the half-step [s]
+    /// Duration of the half-step (s)
     #[arg(long, value_name = "S")]
     duration: Option<f64>,
-    /// Greatest height of the swing sole [m]
+    /// Greatest height of the swing sole (m)
     #[arg(long, value_name = "M")]
     clearance: Option<f64>,
-    /// Hips above the ground at the swap [m]
+    /// Hip height at the support change (m)
     #[arg(long, value_name = "M")]
     hip_height: Option<f64>,
-    /// How far the pelvis moves towards the support foot [m]
+    /// How far the pelvis moves towards the support foot (m)
     #[arg(long, value_name = "M")]
     pelvis_sway: Option<f64>,
-    /// How far the pelvis stays behind the middle between the feet at the swap [m]
+    /// Distance of the pelvis behind the middle between the feet at the support change (m)
     #[arg(long, value_name = "M")]
     pelvis_setback: Option<f64>,
-    /// Height of the pendulum after whose motion the pelvis moves forward [m]
+    /// Height of the pendulum after whose motion the pelvis moves forward (m)
     #[arg(long, value_name = "M")]
     pendulum_height: Option<f64>,
-    /// Shoulder swing to either side [deg]
+    /// Shoulder swing to either side (deg)
     #[arg(long, value_name = "DEG")]
     arm_swing: Option<f64>,
-    /// How far the elbows are bent [deg]
+    /// How far the elbows are bent (deg)
     #[arg(long, value_name = "DEG")]
     elbow_flexion: Option<f64>,
     /// Intervals of the table
@@ -67,9 +69,9 @@ struct ParameterOptions {
     intervals: Option<usize>,
 }
 
-/// How well it came out; angles in degrees.
+/// Result of the synthesis; angles in degrees.
 #[derive(Debug, Serialize)]
-struct ReportInJson {
+struct SynthesisJson {
     zmp_residual_mm: f64,
     iterations: usize,
     trunk_pitch_deg: [f64; 2],
@@ -80,33 +82,33 @@ struct ReportInJson {
     out: PathBuf,
 }
 
-impl Synthesize {
-    pub fn run(self, json: bool) -> Result<Outcome, Failure> {
-        let mechanism = Mechanism::load(&self.mechanism).map_err(Failure::bad_input)?;
+impl SynthesizeArgs {
+    pub fn run(self, json: bool) -> Result<Status, CliError> {
+        let mechanism = Mechanism::load(&self.mechanism).map_err(CliError::bad_input)?;
         let pattern = match &self.recorded {
             None => LegPattern::Pendulum,
-            Some(file) => LegPattern::Recorded(Recording::load(file).map_err(Failure::bad_input)?),
+            Some(file) => LegPattern::Recorded(GaitRecording::load(file).map_err(CliError::bad_input)?),
         };
         let made_by = self.command_line();
         let synthesis =
-            synthesize(&mechanism, &pattern, &self.parameters.parameters(), &made_by).map_err(Failure::bad_input)?;
+            synthesize(&mechanism, &pattern, &self.parameters.parameters(), &made_by).map_err(CliError::bad_input)?;
 
         create_parent(&self.out)?;
-        synthesis.table.write_csv(&self.out).map_err(Failure::new)?;
+        synthesis.table.write_csv(&self.out).map_err(CliError::new)?;
         if let Some(folder) = &self.figures {
             draw(&synthesis.table, &mechanism, folder)?;
         }
 
         if json {
-            print_json(&ReportInJson::new(&synthesis.report, self.out))?;
+            print_json(&SynthesisJson::new(&synthesis.report, self.out))?;
         } else {
             print_line(in_words(&synthesis.report))?;
             print_line(format_args!("written to {}", self.out.display()))?;
         }
-        Ok(Outcome::Fine)
+        Ok(Status::Success)
     }
 
-    /// The command that makes the same table again.
+    /// The command that makes the same table.
     fn command_line(&self) -> String {
         let path = |path: &Path| quoted(&path.display().to_string());
         let mut line = format!("halfstep synthesize --mechanism {} --out {}", path(&self.mechanism), path(&self.out));
@@ -121,10 +123,10 @@ impl Synthesize {
 }
 
 impl ParameterOptions {
-    /// In radians, with defaults for what was not given.
-    fn parameters(&self) -> Parameters {
-        let default = Parameters::default();
-        Parameters {
+    /// The parameters with angles in radians, and defaults for options that were not given.
+    fn parameters(&self) -> SynthesisParameters {
+        let default = SynthesisParameters::default();
+        SynthesisParameters {
             step_length: self.step_length.unwrap_or(default.step_length),
             duration: self.duration.unwrap_or(default.duration),
             clearance: self.clearance.unwrap_or(default.clearance),
@@ -158,7 +160,7 @@ impl ParameterOptions {
     }
 }
 
-/// A word for the shell.
+/// Quotes a word for the shell.
 fn quoted(word: &str) -> String {
     let plain = |character: char| character.is_ascii_alphanumeric() || "/._-+=:,@".contains(character);
     if !word.is_empty() && word.chars().all(plain) {
@@ -168,21 +170,21 @@ fn quoted(word: &str) -> String {
     }
 }
 
-fn draw(table: &NominalTable, mechanism: &Mechanism, folder: &Path) -> Result<(), Failure> {
+fn draw(table: &NominalTable, mechanism: &Mechanism, folder: &Path) -> Result<(), CliError> {
     let pictures = [
         ("nominal_stick.svg", picture::nominal_stick(table, mechanism)),
         ("nominal_footprints.svg", picture::nominal_footprints(table, mechanism)),
     ];
-    super::write_pictures(folder, &pictures)
+    write_files(folder, &pictures)
 }
 
-fn create_parent(file: &Path) -> Result<(), Failure> {
+fn create_parent(file: &Path) -> Result<(), CliError> {
     let Some(folder) = file.parent() else { return Ok(()) };
-    fs::create_dir_all(folder).map_err(|error| Failure::new(format!("{}: {error}", folder.display())))
+    fs::create_dir_all(folder).map_err(CliError::file(folder))
 }
 
-impl ReportInJson {
-    fn new(report: &Report, out: PathBuf) -> Self {
+impl SynthesisJson {
+    fn new(report: &SynthesisReport, out: PathBuf) -> Self {
         let degrees = |(min, max): (f64, f64)| [min.to_degrees(), max.to_degrees()];
         Self {
             zmp_residual_mm: report.residual * 1e3,
@@ -197,7 +199,7 @@ impl ReportInJson {
     }
 }
 
-fn in_words(report: &Report) -> String {
+fn in_words(report: &SynthesisReport) -> String {
     let range = |(min, max): (f64, f64)| format!("{:+.2}° to {:+.2}°", min.to_degrees(), max.to_degrees());
     format!(
         "residual |ZMP−O|  {:.4} mm after {} iterations\ntrunk pitch       {}\ntrunk roll        {}\n\

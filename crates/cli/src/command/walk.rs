@@ -1,89 +1,95 @@
 //! `halfstep walk`: both processes, a script of commands, and pictures at the end.
 
+use interface::{Intent, Request, Source, Verdict};
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use ::record::{RUN_FILE, files_of, merge};
+use gait::Robot;
+use node::configuration::{ConfigFiles, Errors};
+use node::engine;
+use node::interrupt::Interrupt;
+use node::summary::{ControllerSummary, PlantSummary};
+use operator::reply_text::reply_text;
+use operator::script::{Reader, ScriptError, TimedRequest};
+use operator::script_runner::ScriptRunner;
+use plots::picture;
+use plots::run_log::RunLog;
+use record::{RUN_FILE, files_of, merge};
 use runtime::Rate;
-use wire::{
-    ConnectError, Instance, InstanceName, Intent, Leftovers, ObserverEnd, OperatorEnd, Request, Source, Verdict,
-};
+use wire::{ConnectError, Instance, InstanceName, Leftovers, ObserverPorts, OperatorPorts};
 
-use super::{LoopOptions, print, print_line, write_pictures};
-use crate::configuration::{ConfigOptions, Errors, Robot};
-use crate::engine::{self, Engine};
-use crate::failure::{Failure, Outcome};
-use crate::interrupt::Interrupt;
-use crate::operator::Operator;
-use crate::picture;
+use super::config_options::ConfigOptions;
+use super::engine::Engine;
+use super::options::LoopOptions;
+use crate::error::CliError;
+use crate::output::{print, print_line, write_files};
 use crate::process::Process;
 use crate::progress::Progress;
-use crate::run_log::RunLog;
-use crate::script::{Reader, ScriptError, Step};
-use crate::summary::{ControllerSummary, PlantSummary, WalkSummary};
-use crate::words;
+use crate::status::Status;
+use crate::walk_summary::WalkSummary;
 
-/// Walk: controller and plant as two processes, commands from a script, a recording and pictures
+/// Walk: run controller and plant, send commands from a script, record the run and plot it
 #[derive(Clone, Debug, clap::Args)]
-pub struct Walk {
+pub struct WalkArgs {
     #[command(flatten)]
     config: ConfigOptions,
     #[command(flatten)]
     runs: LoopOptions,
-    /// Commands, one JSON object per line as for `stream`; a gentle mix is built in
+    /// Commands, one JSON object per line as for `stream` [default: a built-in demo]
     #[arg(long, value_name = "FILE")]
     commands: Option<PathBuf>,
-    /// Folder for recording, summary and pictures; the next free one in runs/ if absent
+    /// Folder for recording, summary and plots [default: the next free one in runs/]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Seed of the sensors' noise and of the errors of mass
+    /// Seed of sensor noise and mass errors
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
     /// Pushes and sensor faults, as in config/disturbances_demo.toml
     #[arg(long, value_name = "FILE")]
     disturbances: Option<PathBuf>,
-    /// Who simulates the robot: Halfstep itself, or MuJoCo, which is installed on first use
+    /// Physics engine; MuJoCo is installed on first use
     #[arg(long, value_name = "NAME", default_value = "rust")]
     plant: Engine,
-    /// Which robot, if others shall talk to it; a name of its own if absent
+    /// Instance name for other processes to connect to [default: unique per run]
     #[arg(long, value_name = "NAME")]
     instance: Option<InstanceName>,
 }
 
-/// What is walked if no file is given.
+/// The commands if no file is given.
 const DEMO: &str = include_str!("../../../../config/commands_demo.jsonl");
-const GLANCE: Duration = Duration::from_millis(10);
-/// How many glances the controller may take to start.
-const STARTUP_GLANCES: u32 = 1000;
-/// How long one process may go on alone after the other has ended.
-const ALONE: Duration = Duration::from_millis(500);
+const POLL_INTERVAL: Duration = Duration::from_millis(10);
+/// Polls until the controller must have started.
+const STARTUP_POLLS: u32 = 1000;
+/// How long one process may go on after the other has ended.
+const END_TIMEOUT: Duration = Duration::from_millis(500);
 
-/// What is walking, and who listens. The instance's leftovers go last, when nobody is there any more.
+/// The two processes, and the connections to them. The instance's files are removed last, when no process uses them.
 struct Walking {
     controller: Process,
     plant: Process,
-    operator: Operator,
-    observer: ObserverEnd,
+    script: ScriptRunner,
+    observer: ObserverPorts,
     _leftovers: Leftovers,
 }
 
-impl Walk {
-    pub fn run(self, json: bool) -> Result<Outcome, Failure> {
+impl WalkArgs {
+    pub fn run(self, json: bool) -> Result<Status, CliError> {
         let interrupt = Interrupt::listen()?;
         let mut errors = Errors::default();
-        let robot = self.config.robot(&mut errors);
-        self.config.controller(&mut errors);
-        self.config.plant(&mut errors);
-        let realtime = self.config.realtime(&mut errors);
-        ConfigOptions::disturbances(self.disturbances.as_deref(), &mut errors);
-        let rate = realtime.map(|realtime| realtime.rate).unwrap_or_default();
+        let files = self.config.files();
+        let robot = files.robot(&mut errors);
+        files.controller(&mut errors);
+        files.plant(&mut errors);
+        let realtime = files.realtime(&mut errors);
+        ConfigFiles::disturbances(self.disturbances.as_deref(), &mut errors);
+        let rate = realtime.map_or(Rate::clamped(wire::DEFAULT_RATE_HZ), |realtime| realtime.rate);
         let steps = self.steps(rate, &mut errors);
         let (robot, mut steps) = errors.finish(robot.zip(steps))?;
         if self.runs.from_stand {
-            let walk = Request { intent: Some(Intent::Walk), ..Request::by(Source::Script) };
-            steps.insert(0, Step { time: Some(Duration::ZERO), request: walk });
+            let walk = Request { intent: Some(Intent::Walk), ..Request::new(Source::Script) };
+            steps.insert(0, TimedRequest { time: Some(Duration::ZERO), request: walk });
         }
         let instance = match &self.instance {
             Some(name) => Instance::new(name.as_str())?,
@@ -103,11 +109,11 @@ impl Walk {
         if !json {
             print_line(format_args!("run.mcap, summary.json and pictures are in {}", folder.display()))?;
         }
-        Ok(Outcome::fine_if(summary.measures.falls == 0))
+        Ok(Status::success_if(summary.measures.falls == 0))
     }
 
-    /// The script, as far as this walk gets.
-    fn steps(&self, rate: Rate, errors: &mut Errors) -> Option<Vec<Step>> {
+    /// The requests of the script that are due before the walk ends.
+    fn steps(&self, rate: Rate, errors: &mut Errors) -> Option<Vec<TimedRequest>> {
         let steps = match &self.commands {
             None => Reader::read_all("built-in commands", DEMO),
             Some(file) => {
@@ -116,7 +122,7 @@ impl Walk {
                 Reader::read_all(name, &text)
             }
         };
-        let is_reached = |step: &Step| self.runs.ticks(rate).is_none_or(|ticks| step.tick(rate) < ticks);
+        let is_reached = |step: &TimedRequest| self.runs.ticks(rate).is_none_or(|ticks| step.tick(rate) < ticks);
         match steps {
             Ok(steps) => Some(steps.into_iter().filter(is_reached).collect()),
             Err(wrong) => {
@@ -126,35 +132,40 @@ impl Walk {
         }
     }
 
-    /// Where to write.
-    fn folder(&self) -> Result<PathBuf, Failure> {
-        let cannot = |folder: &Path, error| Failure::new(format!("{}: {error}", folder.display()));
+    /// Folder for the results.
+    fn folder(&self) -> Result<PathBuf, CliError> {
         if let Some(folder) = &self.out {
-            fs::create_dir_all(folder).map_err(|error| cannot(folder, error))?;
+            fs::create_dir_all(folder).map_err(CliError::file(folder))?;
             return Ok(folder.clone());
         }
         let runs = Path::new("runs");
-        fs::create_dir_all(runs).map_err(|error| cannot(runs, error))?;
+        fs::create_dir_all(runs).map_err(CliError::file(runs))?;
         for number in 1.. {
             let folder = runs.join(format!("{number:04}"));
             match fs::create_dir(&folder) {
                 Ok(()) => return Ok(folder),
                 Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
-                Err(error) => return Err(cannot(&folder, error)),
+                Err(error) => return Err(CliError::file(&folder)(error)),
             }
         }
         unreachable!("numbers do not end")
     }
 
-    /// Starts the controller, asks it for everything that is to come, and only then starts the plant, which begins the
-    /// walk: so every request is there in time.
-    fn start(&self, instance: &Instance, folder: &Path, steps: &[Step], rate: Rate) -> Result<Walking, Failure> {
+    /// Starts the controller, sends it the script, and only then starts the plant, which begins the walk: so every request
+    /// arrives in time.
+    fn start(
+        &self,
+        instance: &Instance,
+        folder: &Path,
+        steps: &[TimedRequest],
+        rate: Rate,
+    ) -> Result<Walking, CliError> {
         let leftovers = instance.leftovers();
         let mut controller = Process::start("controller", self.arguments(instance, folder))?;
         let operator = connect_operator(instance, &mut controller)?;
-        let observer = ObserverEnd::connect(instance)?;
-        let mut operator = Operator::new(operator, steps, rate);
-        operator.send()?;
+        let observer = ObserverPorts::connect(instance)?;
+        let mut script = ScriptRunner::new(operator, steps, rate);
+        script.send()?;
         let mut of_plant = self.arguments(instance, folder);
         of_plant.extend(["--end-when-fallen".into(), "--seed".into(), self.seed.to_string().into()]);
         of_plant.extend(["--engine".into(), self.plant.name().into()]);
@@ -162,10 +173,10 @@ impl Walk {
             of_plant.extend(["--disturbances".into(), file.into()]);
         }
         let plant = Process::start("plant", of_plant)?;
-        Ok(Walking { controller, plant, operator, observer, _leftovers: leftovers })
+        Ok(Walking { controller, plant, script, observer, _leftovers: leftovers })
     }
 
-    /// What both processes are told.
+    /// Arguments of both processes.
     fn arguments(&self, instance: &Instance, folder: &Path) -> Vec<OsString> {
         let mut arguments = self.config.arguments();
         arguments.extend(["--instance".into(), instance.name().as_str().into(), "--out".into(), folder.into()]);
@@ -190,11 +201,11 @@ impl Walk {
         folder: &Path,
         controller: &ControllerSummary,
         plant: &PlantSummary,
-    ) -> Result<WalkSummary, Failure> {
+    ) -> Result<WalkSummary, CliError> {
         let parts = files_of(folder)?;
         let whole = folder.join(RUN_FILE);
         merge(&parts, &whole)?;
-        // They hold nothing more.
+        // The merged recording has everything that they have.
         parts.iter().for_each(|part| drop(fs::remove_file(part)));
         let log = RunLog::read(&whole)?;
         let duration_s = rate.time(plant.ticks);
@@ -207,68 +218,70 @@ impl Walk {
             instance: instance.name().to_string(),
             clock: self.runs.clock().text(),
             deadline_misses: controller.deadline_misses + plant.deadline_misses,
-            kept_time: controller.kept_time,
+            timing: controller.timing,
             log_gaps: controller.log_gaps + plant.log_gaps,
             real_time_factor: if plant.wall_s > 0.0 { duration_s / plant.wall_s } else { 0.0 },
         };
-        let text = serde_json::to_string_pretty(&summary).map_err(Failure::new)?;
+        let text = serde_json::to_string_pretty(&summary).map_err(CliError::new)?;
         let file = folder.join("summary.json");
-        fs::write(&file, text + "\n").map_err(|error| Failure::new(format!("{}: {error}", file.display())))?;
-        write_pictures(folder, &picture::of_run(&log, &robot.mechanism))?;
+        fs::write(&file, text + "\n").map_err(CliError::file(&file))?;
+        write_files(folder, &picture::of_run(&log, &robot.mechanism))?;
         Ok(summary)
     }
 }
 
 /// Waits until the controller takes requests.
-fn connect_operator(instance: &Instance, controller: &mut Process) -> Result<OperatorEnd, Failure> {
-    for _ in 0..STARTUP_GLANCES {
-        match OperatorEnd::connect(instance) {
-            Err(ConnectError::NoController { .. }) if !controller.has_ended()? => std::thread::sleep(GLANCE),
-            Err(ConnectError::NoController { .. }) => return Err(Failure::new("the controller failed to start")),
+fn connect_operator(instance: &Instance, controller: &mut Process) -> Result<OperatorPorts, CliError> {
+    for _ in 0..STARTUP_POLLS {
+        match OperatorPorts::connect(instance) {
+            Err(ConnectError::NoController { .. }) if !controller.has_ended()? => std::thread::sleep(POLL_INTERVAL),
+            Err(ConnectError::NoController { .. }) => return Err(CliError::new("the controller failed to start")),
             connected => return Ok(connected?),
         }
     }
-    Err(Failure::new("the controller does not start"))
+    Err(CliError::new("the controller does not start"))
 }
 
 impl Walking {
     /// Shows the walk until one of the processes ends, or this one is asked to.
-    fn watch(&mut self, progress: Progress, interrupt: &Interrupt, rate: Rate) -> Result<(), Failure> {
+    fn watch(&mut self, progress: Progress, interrupt: &Interrupt, rate: Rate) -> Result<(), CliError> {
         while !(self.plant.has_ended()? || self.controller.has_ended()?) {
             if interrupt.is_raised() {
                 self.plant.end();
                 self.controller.end();
                 break;
             }
-            self.operator.send()?;
-            self.tell_objections(&progress, rate);
+            self.script.send()?;
+            self.print_objections(&progress, rate);
             let mut newest = None;
             while let Some(report) = self.observer.reports.next_report()? {
                 newest = Some(report);
             }
-            if let Some(report) = newest.and_then(|report| report.checked().ok()) {
-                progress.show(&report);
+            if let Some(message) = newest
+                && let Ok(report) = message.checked()
+            {
+                progress.show(message.tick, &report);
             }
-            std::thread::sleep(GLANCE);
+            std::thread::sleep(POLL_INTERVAL);
         }
-        self.tell_objections(&progress, rate);
+        self.print_objections(&progress, rate);
         Ok(())
     }
 
-    /// Says what was not granted as asked.
-    fn tell_objections(&mut self, progress: &Progress, rate: Rate) {
-        while let Some((request, reply)) = self.operator.next_reply() {
+    /// Prints the replies to requests that were not granted as requested.
+    fn print_objections(&mut self, progress: &Progress, rate: Rate) {
+        while let Some((request, reply)) = self.script.next_reply() {
             if reply.verdict != Verdict::Accepted {
                 let time = rate.time(request.not_before);
-                progress.say(&format!("at {time:.2} s: {}", words::reply(&request, &reply)));
+                progress.print(&format!("at {time:.2} s: {}", reply_text(&request, &reply)));
             }
         }
     }
 
-    /// Waits for the other process, too, and gives what both have to say.
-    fn finish(self) -> Result<(ControllerSummary, PlantSummary), Failure> {
-        let plant = self.plant.finish(ALONE);
-        let controller = self.controller.finish(ALONE);
+    /// Waits for the other process to end, and returns both summaries.
+    fn finish(self) -> Result<(ControllerSummary, PlantSummary), CliError> {
+        let plant = self.plant.finish(END_TIMEOUT);
+        let controller = self.controller.finish(END_TIMEOUT);
         Ok((controller?, plant?))
     }
 }

@@ -1,23 +1,39 @@
 //! A robot, a synthetic half-step for it, and forward kinematics from sole to sole.
 //!
 //! The half-step is made of functions that repeat after two half-steps, each leg half a period behind the other: so its
-//! end mirrors its start in angle, rate and acceleration, and soles and pelvis stay level (pitch and roll each add up to
-//! zero from the ground to the pelvis and down again).
+//! end mirrors its start in angle, rate and acceleration, and soles and pelvis stay level (pitch and roll each add up
+//! to zero from the ground to the pelvis and down again).
 
 #![allow(dead_code, reason = "each test uses its part of it")]
 
 use std::f64::consts::PI;
 use std::sync::Arc;
+use std::time::Duration;
 
-use gait::{Command, GaitParameters, NominalRow, NominalTable, Request, Start, Walk};
+use config::Config;
+use gait::{GaitParameters, Limits, NominalRow, NominalTable, RampKind, Start, Walk};
+use interface::{Command, GaitChange};
 use model::{Joint, JointVector, Mechanism, Mirror, Motion, PerJoint, Side, Wrench};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
-/// `T` [s].
+/// `T` (s).
 pub const DURATION: f64 = 0.6;
-/// Largest roll of the support leg in the synthetic half-step [rad].
+/// Largest roll of the support leg in the synthetic half-step (rad).
 pub const SWAY: f64 = 0.05;
+
+/// The gait parameters of these tests: quintic ramps, changes of speed over one half-step, the range of the paper's
+/// figures. The committed ones are wider; no statement here depends on them.
+pub fn parameters() -> GaitParameters {
+    let limits = Limits {
+        turn_max: 30_f64.to_radians(),
+        speed_min: 0.6,
+        speed_max: 1.4,
+        extension_min: -8_f64.to_radians(),
+        extension_max: 8_f64.to_radians(),
+    };
+    GaitParameters { ramp: RampKind::Quintic, speed_ramp: Duration::from_millis(600), limits }
+}
 
 /// The robot of `config/mechanism.toml`.
 pub fn mechanism() -> Mechanism {
@@ -43,7 +59,7 @@ pub fn walk(parameters: &GaitParameters, support: Side, command: Command) -> Wal
     Walk::new(table, &mechanism, parameters, Start { support, command }).expect("a valid walk")
 }
 
-/// What the table holds at `t` [s].
+/// The row of the table at `t` (s).
 fn nominal_row(mechanism: &Mechanism, t: f64) -> NominalRow {
     let h = 1e-4;
     let (before, here, after) = (angles(mechanism, t - h), angles(mechanism, t), angles(mechanism, t + h));
@@ -68,7 +84,7 @@ fn angles(mechanism: &Mechanism, t: f64) -> JointVector {
     use Joint::*;
     let mirror = Mirror::new(mechanism).expect("a symmetric robot");
     let phase = |t: f64| PI * t / DURATION;
-    // Of the right leg: it bears from 0 to T and swings from T to 2T.
+    // The right leg supports the robot from 0 to T and swings from T to 2T.
     let right = |t: f64| {
         let ankle = -0.2 * phase(t).cos();
         let knee = -0.35 + 0.25 * phase(t).sin();
@@ -117,25 +133,25 @@ pub fn left_sole_to_right_sole(mechanism: &Mechanism, angles: &JointVector) -> I
     sole(Side::Right).inverse() * sole(Side::Left)
 }
 
-/// Angle between a sole's normal and the vertical [rad].
+/// Angle between a sole's normal and the vertical (rad).
 pub fn tilt(sole: &Isometry3<f64>) -> f64 {
     let normal = sole.rotation * Vector3::z();
     normal.xy().norm().atan2(normal.z)
 }
 
-/// Which way a sole points, from x to y [rad].
+/// Which way a sole points, from x to y (rad).
 pub fn heading(sole: &Isometry3<f64>) -> f64 {
     let forward = sole.rotation * Vector3::x();
     forward.y.atan2(forward.x)
 }
 
-/// Requests as an operator might send them, at random times [ticks until the next]; some outside the limits, some not
+/// Requests as an operator might send them, at random times (ticks until the next); some outside the limits, some not
 /// even numbers.
-pub fn streams() -> impl Strategy<Value = Vec<(u32, Request)>> {
+pub fn streams() -> impl Strategy<Value = Vec<(u32, GaitChange)>> {
     prop::collection::vec((1_u32..900, requests()), 1..12)
 }
 
-fn requests() -> impl Strategy<Value = Request> {
+fn requests() -> impl Strategy<Value = GaitChange> {
     let value = |range: std::ops::Range<f64>| {
         prop_oneof![
             8 => range.prop_map(Some),
@@ -144,7 +160,7 @@ fn requests() -> impl Strategy<Value = Request> {
             1 => Just(Some(0.0)),
         ]
     };
-    (value(-0.7..0.7), value(0.4..1.6), value(-0.2..0.2)).prop_map(|(turn, speed, extension)| Request {
+    (value(-0.7..0.7), value(0.4..1.6), value(-0.2..0.2)).prop_map(|(turn, speed, extension)| GaitChange {
         turn,
         speed,
         extension,

@@ -6,6 +6,7 @@
 
 use crate::{Joint, Mechanism};
 
+/// The fingerprint of a mechanism.
 pub(super) fn of(mechanism: &Mechanism) -> u64 {
     const OFFSET_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
     const PRIME: u64 = 0x0000_0100_0000_01b3;
@@ -23,7 +24,7 @@ pub(super) fn of(mechanism: &Mechanism) -> u64 {
         link.axis.iter().chain(link.origin.iter()).copied().for_each(&mut add);
         add(link.body.mass);
         link.body.com.iter().chain(link.body.inertia.iter()).copied().for_each(&mut add);
-        // What is there and what is not must not look alike.
+        // Present and absent limits must not yield the same number.
         add(f64::from(u8::from(link.limits.is_some())));
         if let Some(limits) = link.limits {
             [limits.angle_min, limits.angle_max, limits.rate_max].into_iter().for_each(&mut add);

@@ -1,39 +1,22 @@
 //! Reading a mechanism from its file (`config/mechanism.toml`), strictly.
 //!
-//! Every mistake is reported at once, with line, key, value and what would be right: see [`config`].
+//! All mistakes are reported at once, each with line, key, value and what would be right: see [`config`].
 
 mod fingerprint;
 mod symmetry;
 
-use std::path::Path;
-
+use config::{Config, Table};
 use nalgebra::{Unit, Vector3};
 
-use crate::config::{self, ConfigErrors, Document, Table};
 use crate::{Body, Joint, JointLimits, Link, Mechanism, Motor, PerJoint, Sole};
 
-impl Mechanism {
-    /// Reads a mechanism file.
-    ///
-    /// # Errors
-    /// When the file cannot be read, and everything of [`Mechanism::from_toml`].
-    pub fn load(path: impl AsRef<Path>) -> Result<Self, ConfigErrors> {
-        let path = path.as_ref();
-        Self::from_toml(&config::read(path)?, &path.display().to_string())
-    }
-
-    /// Reads the text of a mechanism file; `file` is its name for messages.
-    ///
-    /// # Errors
-    /// Keys unknown, missing, in a wrong unit or of a wrong type; values out of range; a broken tree; axes that are no
-    /// unit vectors; bodies that cannot exist; joints faster than their motors; a robot that is not the mirror image of
-    /// itself.
-    pub fn from_toml(text: &str, file: &str) -> Result<Self, ConfigErrors> {
-        let document = Document::parse(text, file)?;
-        let root = document.root();
+/// Beside keys and values that are wrong by themselves, a file is refused for a broken tree, axes that are not unit
+/// vectors, impossible inertias, joints faster than their motors, and a robot that is not left–right symmetric.
+impl Config for Mechanism {
+    fn read(root: &Table) -> Self {
         let name = root.text("name").to_string();
         let sole = Sole::read(&root.table("sole"));
-        let motors = Motor::read_all(&root);
+        let motors = Motor::read_all(root);
         let joint_table = root.table("joint");
         let tables = PerJoint::from_fn(|joint| joint_table.table(joint.name()));
         let links = PerJoint::from_fn(|joint| link(joint, &tables[joint], &motors));
@@ -42,7 +25,7 @@ impl Mechanism {
         check_stance(&tables, &mechanism);
         symmetry::check(&tables, &mechanism);
         mechanism.fingerprint = fingerprint::of(&mechanism);
-        document.finish(mechanism)
+        mechanism
     }
 }
 
@@ -59,7 +42,8 @@ impl Sole {
 }
 
 impl Motor {
-    /// Reads all tables `[motor.NAME]` of a file by their names, noting what is wrong. Joints of one type share one.
+    /// Reads all tables `[motor.NAME]` of a file, noting what is wrong: name and motor of each. Joints of one type
+    /// share a motor.
     pub fn read_all<'d>(root: &Table<'d>) -> Vec<(&'d str, Self)> {
         root.named_tables("motor").iter().map(|(name, table)| (*name, Self::read(table))).collect()
     }
@@ -83,13 +67,13 @@ fn link(joint: Joint, table: &Table, motors: &[(&str, Motor)]) -> Link {
     let axis = Vector3::from(table.numbers("axis").that(is_unit, "must be a unit vector such as [0, 1, 0]"));
     let origin = Vector3::from(table.numbers("origin_m").any());
 
-    // What tips between foot and ground is nothing but a direction.
+    // Between foot and ground there is no body, only an axis.
     let body = if joint == Joint::FootRoll { Body::NONE } else { body(table) };
     let (limits, motor) = if joint.is_powered() { drive(table, motors) } else { (None, None) };
     Link { parent, axis: Unit::new_normalize(axis), origin, body, limits, motor }
 }
 
-/// The parent; the ground for the first joint only. That parents come before children leaves no room for a cycle.
+/// The parent joint; the ground for the first joint only. Parents come before children, so there can be no cycle.
 fn parent(joint: Joint, table: &Table) -> Option<Joint> {
     let name = table.text("parent");
     let parent = Joint::from_name(name);

@@ -1,15 +1,15 @@
 //! Checks that the robot is its own mirror image in the sagittal plane: the controller always stands on the right foot
 //! and mirrors the rest.
 //!
-//! In the legs the mirror also turns the chain round. A joint's partner sits at the other end of the mirrored link: the
-//! right shank hangs on the ankle, the left one on the knee.
+//! In the legs the mirror also reverses the chain. A joint's partner is at the other end of the mirrored link: the
+//! right shank is carried by the ankle, the left one by the knee.
 
+use config::Table;
 use nalgebra::Vector3;
 
-use crate::config::Table;
 use crate::{Joint, Mechanism, Mirror, Motor, PerJoint, partner};
 
-/// Lengths, masses and angles of the two sides may differ by this much, rounding of decimals only.
+/// Largest difference of lengths, masses and angles between the two sides: the rounding of decimals (m, kg, rad).
 const TOLERANCE: f64 = 1e-9;
 
 /// Notes everything that differs between right and left, at the joint with the higher number.
@@ -23,7 +23,7 @@ pub(super) fn check(tables: &PerJoint<Table>, mechanism: &Mechanism) {
             body(joint, &tables[joint], mechanism);
         }
     }
-    // Without mirror-symmetric axes no sign says what the range should be.
+    // Without symmetric axes the sign of the mirrored range is unknown.
     if let Some(mirror) = Mirror::new(mechanism) {
         for joint in Joint::ALL.into_iter().filter(|joint| joint.is_powered() && partner(*joint) <= *joint) {
             drive(joint, &tables[joint], mechanism, mirror.sign(joint));
@@ -119,12 +119,13 @@ fn drive(joint: Joint, table: &Table, mechanism: &Mechanism, sign: f64) {
     }
 }
 
-/// A motor's numbers; those that were refused are `NaN` and differ from nothing.
+/// The numbers of a motor. Refused values are `NaN`, which never counts as a difference.
 fn numbers(motor: &Motor) -> [f64; 5] {
     [motor.resistance, motor.torque_constant, motor.gear_ratio, motor.rotor_inertia, motor.voltage_max]
 }
 
-/// The link that is the mirror image of the one that `joint` carries: the pelvis of itself, the left foot of the right.
+/// The joint whose link is the mirror image of the link that `joint` carries: the left foot for the right foot, the
+/// pelvis for itself.
 fn linked_partner(joint: Joint) -> Joint {
     match joint {
         Joint::LeftAnkleRoll => Joint::FootPitch,
@@ -134,9 +135,10 @@ fn linked_partner(joint: Joint) -> Joint {
     }
 }
 
-/// Where the mirrored frame of the link on `joint` sits in the frame of the link that is its mirror image [m].
+/// Position of the mirrored frame of the link on `joint` in the frame of the link that is its mirror image (m).
 ///
-/// In the legs the frames sit at opposite ends: where the right link carries the next joint, the left one is mounted.
+/// In the legs the frames are at opposite ends of the link: the left link is mounted where the right one carries the
+/// next joint.
 fn image_of_frame(joint: Joint, mechanism: &Mechanism) -> Vector3<f64> {
     match joint {
         Joint::FootPitch => Vector3::new(0.0, 0.0, -mechanism.sole.ankle_height),
@@ -145,9 +147,9 @@ fn image_of_frame(joint: Joint, mechanism: &Mechanism) -> Vector3<f64> {
     }
 }
 
-/// y of the plane of symmetry in the frame of the link on which `joint`, of trunk or arms, is mounted [m].
+/// The y coordinate of the plane of symmetry in the parent frame of `joint`, a joint of trunk or arms (m).
 fn plane_of_parent(joint: Joint, mechanism: &Mechanism) -> f64 {
-    // The pelvis' frame sits at the right hip, all others of trunk and arms in the middle or mirrored.
+    // The pelvis' frame is at the right hip; those of trunk and arms are in the middle or mirrored.
     match mechanism.links[joint].parent {
         Some(Joint::RightHipRoll) => mechanism.links[Joint::LeftHipRoll].origin.y / 2.0,
         _ => 0.0,

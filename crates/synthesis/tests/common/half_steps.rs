@@ -1,18 +1,18 @@
 //! The half-steps about which statements are made.
 
 use model::Mechanism;
-use synthesis::{LegPattern, Parameters, Recording, Synthesis, synthesize};
+use synthesis::{GaitRecording, LegPattern, Synthesis, SynthesisParameters, synthesize};
 
 use crate::common::{config, mechanism};
 
 /// The half-step of the default parameters.
 pub fn nominal(mechanism: &Mechanism, pattern: &LegPattern) -> Synthesis {
-    synthesize(mechanism, pattern, &Parameters::default(), "a test").unwrap_or_else(|error| panic!("{error}"))
+    synthesize(mechanism, pattern, &SynthesisParameters::default(), "a test").unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Both mechanisms with both leg patterns.
 pub fn all() -> Vec<(String, Mechanism, Synthesis)> {
-    let recording = Recording::load(&config("recorded_leg_shape.csv")).unwrap_or_else(|error| panic!("{error}"));
+    let recording = GaitRecording::load(&config("recorded_leg_shape.csv")).unwrap_or_else(|error| panic!("{error}"));
     let mut all = Vec::new();
     for file in ["mechanism.toml", "mechanism_other_reading.toml"] {
         for (shape, pattern) in

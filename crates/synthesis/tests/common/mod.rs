@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use config::Config;
 use model::Mechanism;
 
 /// A file of the `config` folder.

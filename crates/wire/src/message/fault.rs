@@ -1,6 +1,6 @@
 //! What can be wrong with a message.
 
-use model::{Joint, JointVector, PerJoint, Wrench};
+use model::{Joint, JointVector, PerJoint};
 
 /// Why a message is refused. `Copy`, so that it can travel through a journal.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -49,16 +49,6 @@ pub enum MessageFault {
         /// The codes that mean something, as text.
         known: &'static str,
     },
-    /// A quaternion that is no rotation.
-    #[error("{message}: {field} has length {length}; a rotation has length 1")]
-    NotARotation {
-        /// Which message.
-        message: &'static str,
-        /// Which field of it.
-        field: &'static str,
-        /// Its length.
-        length: f64,
-    },
 }
 
 /// Checks the fields of one kind of message.
@@ -89,25 +79,7 @@ impl Check {
         }
     }
 
-    /// Force xyz, then moment xyz.
-    pub fn wrench(&self, field: &'static str, values: &[f64; 6]) -> Result<Wrench, MessageFault> {
-        let [fx, fy, fz, mx, my, mz] = self.numbers(field, values)?;
-        Ok(Wrench { force: [fx, fy, fz].into(), moment: [mx, my, mz].into() })
-    }
-
-    /// A unit quaternion, w first; rounding may have taken it a little off.
-    pub fn rotation(&self, field: &'static str, values: &[f64; 4]) -> Result<[f64; 4], MessageFault> {
-        const LENGTH_TOLERANCE: f64 = 1e-3;
-        let values = self.numbers(field, values)?;
-        let length = values.iter().map(|value| value * value).sum::<f64>().sqrt();
-        if (length - 1.0).abs() <= LENGTH_TOLERANCE {
-            Ok(values.map(|value| value / length))
-        } else {
-            Err(MessageFault::NotARotation { message: self.0, field, length })
-        }
-    }
-
-    pub fn code<T: super::code::Code>(&self, field: &'static str, value: u32) -> Result<T, MessageFault> {
+    pub fn code<T: interface::code::Code>(&self, field: &'static str, value: u32) -> Result<T, MessageFault> {
         T::from_code(value).ok_or(MessageFault::UnknownCode { message: self.0, field, value, known: T::KNOWN })
     }
 }

@@ -1,10 +1,11 @@
-//! Measurement, plant → controller: what the sensors say.
+//! Measurement, plant → controller: one sample of all sensors.
 
 use iceoryx2::prelude::ZeroCopySend;
-use model::{Joint, JointVector, Side, Wrench};
+use interface::Measurement;
+use model::{Joint, PerJoint, Wrench};
+use nalgebra::Quaternion;
 
-use super::fault::Check;
-use super::{MessageFault, NOTHING_YET, Newest};
+use super::{Latest, NEVER_WRITTEN};
 
 /// A [`Measurement`] as it lies in shared memory. Joints are physical and in the paper's order: 3 to 8 are always the
 /// right leg.
@@ -14,93 +15,55 @@ use super::{MessageFault, NOTHING_YET, Newest};
 pub struct MeasurementMessage {
     /// Periods since the plant started.
     pub tick: u64,
-    /// When it was written, `CLOCK_MONOTONIC` [ns].
+    /// When it was written, `CLOCK_MONOTONIC` (ns).
     pub time_ns: u64,
     /// Which sample of the sensors it is, counted in the plant's periods: the same number again is no news.
     pub sample: u64,
-    /// [rad]; joints 1 and 2 hold the tilt of the support sole.
+    /// (rad); joints 1 and 2 hold the tilt of the support sole.
     pub angles: [f64; Joint::COUNT],
-    /// [rad/s]
+    /// (rad/s)
     pub rates: [f64; Joint::COUNT],
-    /// Of the ground on the right foot: force xyz [N], moment xyz [N·m], about the sole's origin, in the sole's axes.
+    /// Of the ground on the right foot: force xyz (N), moment xyz (N·m), about the sole's origin, in the sole's axes.
     pub wrench_right: [f64; 6],
     /// Of the ground on the left foot, likewise.
     pub wrench_left: [f64; 6],
     /// Unit quaternion w x y z that takes trunk coordinates to level ones, z the true vertical.
     pub imu_orientation: [f64; 4],
-    /// Angular velocity of the trunk in trunk axes [rad/s].
+    /// Angular velocity of the trunk in trunk axes (rad/s).
     pub imu_rate: [f64; 3],
-    /// [A]; 0 for joints 1 and 2.
+    /// (A); 0 for joints 1 and 2.
     pub motor_current: [f64; Joint::COUNT],
 }
 
-/// What the sensors say.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measurement {
-    /// Periods since the plant started.
-    pub tick: u64,
-    /// When it was written, `CLOCK_MONOTONIC` [ns].
-    pub time_ns: u64,
-    /// Which sample of the sensors it is, counted in the plant's periods: the same number again is no news.
-    pub sample: u64,
-    /// [rad]; joints 1 and 2 hold the tilt of the support sole.
-    pub angles: JointVector,
-    /// [rad/s]
-    pub rates: JointVector,
-    /// Of the ground on the right foot, about the sole's origin, in the sole's axes.
-    pub wrench_right: Wrench,
-    /// Of the ground on the left foot, likewise.
-    pub wrench_left: Wrench,
-    /// Unit quaternion w x y z that takes trunk coordinates to level ones, z the true vertical.
-    pub imu_orientation: [f64; 4],
-    /// Angular velocity of the trunk in trunk axes [rad/s].
-    pub imu_rate: [f64; 3],
-    /// [A]; 0 for joints 1 and 2.
-    pub motor_current: JointVector,
-}
-
-impl Measurement {
-    /// The ground's wrench on the foot on `side`, about the sole's origin, in the sole's axes.
-    pub fn wrench(&self, side: Side) -> Wrench {
-        match side {
-            Side::Right => self.wrench_right,
-            Side::Left => self.wrench_left,
-        }
-    }
-}
-
 impl MeasurementMessage {
-    /// The measurement, if every number in it is finite and the orientation is one.
-    pub fn checked(&self) -> Result<Measurement, MessageFault> {
-        let check = Check("measurement");
-        Ok(Measurement {
-            tick: self.tick,
-            time_ns: self.time_ns,
-            sample: self.sample,
-            angles: check.joints("angle", &self.angles)?,
-            rates: check.joints("rate", &self.rates)?,
-            wrench_right: check.wrench("wrench_right", &self.wrench_right)?,
-            wrench_left: check.wrench("wrench_left", &self.wrench_left)?,
-            imu_orientation: check.rotation("imu_orientation", &self.imu_orientation)?,
-            imu_rate: check.numbers("imu_rate", &self.imu_rate)?,
-            motor_current: check.joints("motor_current", &self.motor_current)?,
-        })
-    }
-}
-
-impl From<&Measurement> for MeasurementMessage {
-    fn from(measurement: &Measurement) -> Self {
+    /// The measurement written after `tick` periods at `time_ns` (`CLOCK_MONOTONIC`).
+    pub fn new(tick: u64, time_ns: u64, measurement: &Measurement) -> Self {
+        let orientation = measurement.orientation;
         Self {
-            tick: measurement.tick,
-            time_ns: measurement.time_ns,
+            tick,
+            time_ns,
             sample: measurement.sample,
             angles: measurement.angles.0,
             rates: measurement.rates.0,
-            wrench_right: flat(&measurement.wrench_right),
-            wrench_left: flat(&measurement.wrench_left),
-            imu_orientation: measurement.imu_orientation,
-            imu_rate: measurement.imu_rate,
-            motor_current: measurement.motor_current.0,
+            wrench_right: flat(&measurement.feet[0]),
+            wrench_left: flat(&measurement.feet[1]),
+            imu_orientation: [orientation.w, orientation.i, orientation.j, orientation.k],
+            imu_rate: measurement.angular_rate.into(),
+            motor_current: measurement.currents.0,
+        }
+    }
+
+    /// The measurement as it was written. Nothing is checked: the controller validates it and reports what is wrong.
+    pub fn measurement(&self) -> Measurement {
+        let [w, i, j, k] = self.imu_orientation;
+        Measurement {
+            sample: self.sample,
+            angles: PerJoint(self.angles),
+            rates: PerJoint(self.rates),
+            feet: [wrench(self.wrench_right), wrench(self.wrench_left)],
+            orientation: Quaternion::new(w, i, j, k),
+            angular_rate: self.imu_rate.into(),
+            currents: PerJoint(self.motor_current),
         }
     }
 }
@@ -109,9 +72,13 @@ fn flat(Wrench { force, moment }: &Wrench) -> [f64; 6] {
     [force.x, force.y, force.z, moment.x, moment.y, moment.z]
 }
 
-impl Newest for MeasurementMessage {
-    const NOTHING: Self = Self {
-        tick: NOTHING_YET,
+fn wrench([fx, fy, fz, mx, my, mz]: [f64; 6]) -> Wrench {
+    Wrench { force: [fx, fy, fz].into(), moment: [mx, my, mz].into() }
+}
+
+impl Latest for MeasurementMessage {
+    const EMPTY: Self = Self {
+        tick: NEVER_WRITTEN,
         time_ns: 0,
         sample: 0,
         angles: [0.0; Joint::COUNT],
@@ -130,33 +97,26 @@ impl Newest for MeasurementMessage {
 
 #[cfg(test)]
 mod tests {
+    use model::JointVector;
+    use nalgebra::{UnitQuaternion, Vector3};
+
     use super::*;
 
     #[test]
-    fn forces_come_before_moments() {
-        let message = MeasurementMessage {
-            wrench_right: [1.0, 2.0, 3.0, 4.0, 5.0, 6.0],
-            wrench_left: [-1.0; 6],
-            ..MeasurementMessage::NOTHING
+    fn a_measurement_survives_its_message() {
+        let wrench = |force: [f64; 3], moment: [f64; 3]| Wrench { force: force.into(), moment: moment.into() };
+        let measurement = Measurement {
+            sample: 6,
+            angles: JointVector::unit(Joint::RightKnee),
+            rates: JointVector::unit(Joint::LeftKnee),
+            feet: [wrench([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]), wrench([6.0, 5.0, 4.0], [3.0, 2.0, 1.0])],
+            orientation: UnitQuaternion::from_euler_angles(0.1, -0.2, 0.3).into_inner(),
+            angular_rate: Vector3::new(0.4, 0.5, 0.6),
+            currents: JointVector::unit(Joint::WaistRoll),
         };
-        let measurement = message.checked().unwrap();
-        assert_eq!(measurement.wrench(Side::Right).force.as_slice(), [1.0, 2.0, 3.0]);
-        assert_eq!(measurement.wrench(Side::Right).moment.as_slice(), [4.0, 5.0, 6.0]);
-        assert_eq!(MeasurementMessage::from(&measurement), message);
-    }
-
-    #[test]
-    fn an_orientation_that_is_none_is_refused() {
-        let message = MeasurementMessage { imu_orientation: [0.0; 4], ..MeasurementMessage::NOTHING };
-        let text = message.checked().unwrap_err().to_string();
-        assert_eq!(text, "measurement: imu_orientation has length 0; a rotation has length 1");
-    }
-
-    #[test]
-    fn an_infinite_wrench_is_refused() {
-        let mut message = MeasurementMessage::NOTHING;
-        message.wrench_left[5] = f64::INFINITY;
-        let text = message.checked().unwrap_err().to_string();
-        assert_eq!(text, "measurement: wrench_left is inf; it must be finite");
+        let message = MeasurementMessage::new(7, 8, &measurement);
+        assert_eq!((message.tick, message.time_ns), (7, 8));
+        assert_eq!(message.wrench_right, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0], "forces come before moments");
+        assert_eq!(message.measurement(), measurement);
     }
 }

@@ -1,12 +1,12 @@
 //! The messages, one per file: `#[repr(C)]`, fixed size, no padding, no bytes that could be invalid.
 //!
-//! A message is what lies in shared memory: anyone can have written it, so it may be nonsense. Each has a checked twin
-//! without the suffix (`SetpointMessage` and [`Setpoint`]) that cannot be: `checked()` leads from one to the other or
-//! says why not, `From` leads back. Checking neither allocates nor panics.
+//! A message is what lies in shared memory: anyone can have written it, so it may be nonsense. The crate `interface` has
+//! the value that it carries, without the suffix ([`SetpointMessage`] and [`Setpoint`](interface::Setpoint)): `checked()`
+//! gives that value or says why it cannot, `new` or `From` write the message. Neither allocates nor panics. A measurement
+//! is not checked here: the controller validates it, so that a faulty sensor becomes a fault in its report.
 //!
 //! Any change of a layout gets a new `.vN` in the type name **and** a new [`PROTOCOL`](crate::PROTOCOL).
 
-mod code;
 mod fault;
 mod measurement;
 mod reply;
@@ -19,20 +19,20 @@ use std::fmt::Debug;
 use iceoryx2::prelude::ZeroCopySend;
 
 pub use fault::MessageFault;
-pub use measurement::{Measurement, MeasurementMessage};
-pub use reply::{Bound, Granted, InCommand, Reason, Reply, ReplyMessage, Verdict};
-pub use report::{Fault, Mode, Report, ReportMessage};
-pub use request::{Intent, Lasting, Request, RequestMessage, Source};
-pub use setpoint::{Setpoint, SetpointMessage};
+pub use measurement::MeasurementMessage;
+pub use reply::ReplyMessage;
+pub use report::ReportMessage;
+pub use request::RequestMessage;
+pub use setpoint::SetpointMessage;
 
 /// The tick of a message that has not been written yet. No writer counts that far.
-pub const NOTHING_YET: u64 = u64::MAX;
+pub const NEVER_WRITTEN: u64 = u64::MAX;
 
 /// A message of which only the newest counts. Sealed: the messages of this crate implement it, nobody else does.
-pub trait Newest: ZeroCopySend + Copy + Debug + Send + 'static {
-    /// The message that stands there before anything was written: its tick is [`NOTHING_YET`].
+pub trait Latest: ZeroCopySend + Copy + Debug + Send + 'static {
+    /// The message that stands there before anything was written: its tick is [`NEVER_WRITTEN`].
     #[doc(hidden)]
-    const NOTHING: Self;
+    const EMPTY: Self;
 
     /// The writer's count of periods.
     fn tick(&self) -> u64;

@@ -1,4 +1,4 @@
-//! What the statements have in common: an instance of their own each, messages to send, and patience.
+//! What the tests share: an instance for each, messages to send, and waiting.
 
 #![allow(dead_code)]
 
@@ -10,10 +10,10 @@ use wire::{Instance, Leftovers, MeasurementMessage, ReportMessage, RequestMessag
 
 pub const MECHANISM: u64 = 0x0123_4567_89ab_cdef;
 
-/// Much longer than anything here takes, even on a machine that does something else.
+/// Much longer than anything here takes, even on a loaded machine.
 pub const LONG: Duration = Duration::from_secs(30);
 
-/// An instance that nobody else uses, and the guard that removes it.
+/// An instance of this test alone, and the guard that removes its files.
 pub fn own_instance() -> (Instance, Leftovers) {
     static COUNT: AtomicU32 = AtomicU32::new(0);
     let name = format!("test-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
@@ -22,7 +22,7 @@ pub fn own_instance() -> (Instance, Leftovers) {
     (instance, leftovers)
 }
 
-/// Polls until there is something.
+/// Polls until there is a value.
 pub fn eventually<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
     let began = Instant::now();
     loop {

@@ -1,0 +1,177 @@
+//! The report of a benchmark: the times of a run, and the ratios that decide.
+
+use std::fmt;
+
+use serde::{Serialize, Serializer, ser::SerializeStruct};
+
+use crate::{Machine, Series};
+
+/// The result of a benchmark run.
+#[derive(Clone, Debug)]
+pub struct BenchReport {
+    /// Which benchmark: `compute`, `latency` or `jitter`.
+    pub what: &'static str,
+    /// The machine on which it ran.
+    pub machine: Machine,
+    /// The measured times.
+    pub series: Vec<Series>,
+    /// The verdict, which consists of ratios.
+    pub ratios: Vec<Ratio>,
+    /// Notes for the reader.
+    pub notes: Vec<String>,
+}
+
+/// The ratio of two measured numbers of the same run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Ratio {
+    /// Name of the number in the numerator.
+    pub of: String,
+    /// Name of the reference in the denominator.
+    pub to: String,
+    /// Which quantile of both is compared: `p50`, …
+    pub number: String,
+    /// The measured ratio.
+    pub ratio: f64,
+    /// The largest ratio that passes.
+    pub at_most: f64,
+}
+
+impl Ratio {
+    /// The ratio of a quantile of two series, see [`Series::times`].
+    pub fn of(ours: &Series, theirs: &Series, quantile: f64, at_most: f64) -> Self {
+        Self {
+            of: ours.name.clone(),
+            to: theirs.name.clone(),
+            number: number(quantile),
+            ratio: ours.times(theirs, quantile),
+            at_most,
+        }
+    }
+
+    /// Whether the ratio passes.
+    pub fn is_reached(&self) -> bool {
+        self.ratio <= self.at_most
+    }
+}
+
+/// The reported quantiles.
+const QUANTILES: [f64; 4] = [0.5, 0.9, 0.99, 0.999];
+
+fn number(quantile: f64) -> String {
+    format!("p{}", (quantile * 1e4).round() / 1e2)
+}
+
+impl fmt::Display for BenchReport {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        writeln!(out, "{}", self.machine)?;
+        let wide = self.series.iter().map(|series| series.name.chars().count()).max().unwrap_or(0);
+        let mut group = "";
+        for series in &self.series {
+            if series.group != group {
+                group = &series.group;
+                writeln!(out, "\n{group:wide$}   {:>9} {:>9} {:>9} {:>9} {:>9}", "p50", "p90", "p99", "p99.9", "max")?;
+            }
+            write!(out, "{:wide$} µs", series.name)?;
+            for quantile in QUANTILES {
+                write!(out, "{} ", Micro(series.quantile(quantile)))?;
+            }
+            writeln!(out, "{}", Micro(series.max()))?;
+        }
+        if !self.ratios.is_empty() {
+            writeln!(out, "\nratios within this run")?;
+        }
+        for ratio in &self.ratios {
+            let Ratio { of, to, number, ratio: value, at_most } = ratio;
+            let verdict = if ratio.is_reached() { "reached" } else { "missed" };
+            writeln!(out, "{value:8.2} of at most {at_most:4.2} {verdict:7}  {number} of {of} / {to}")?;
+        }
+        for note in &self.notes {
+            writeln!(out, "\n{note}")?;
+        }
+        Ok(())
+    }
+}
+
+/// A time (ns), in microseconds.
+struct Micro(f64);
+
+impl fmt::Display for Micro {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        let micro = self.0 * 1e-3;
+        let digits = if micro < 10.0 {
+            3
+        } else if micro < 1000.0 {
+            1
+        } else {
+            0
+        };
+        write!(out, "{micro:9.digits$}")
+    }
+}
+
+impl Serialize for BenchReport {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut told = serializer.serialize_struct("BenchReport", 5)?;
+        told.serialize_field("what", self.what)?;
+        told.serialize_field("machine", &self.machine)?;
+        told.serialize_field("series", &self.series.iter().map(SeriesInJson::from).collect::<Vec<_>>())?;
+        told.serialize_field("ratios", &self.ratios)?;
+        told.serialize_field("notes", &self.notes)?;
+        told.end()
+    }
+}
+
+/// A series as JSON; times in nanoseconds.
+#[derive(Serialize)]
+struct SeriesInJson<'s> {
+    group: &'s str,
+    name: &'s str,
+    count: u64,
+    p50_ns: f64,
+    p90_ns: f64,
+    p99_ns: f64,
+    p99_9_ns: f64,
+    max_ns: f64,
+    p50_ns_of_rounds: Vec<f64>,
+}
+
+impl<'s> From<&'s Series> for SeriesInJson<'s> {
+    fn from(series: &'s Series) -> Self {
+        let [p50_ns, p90_ns, p99_ns, p99_9_ns] = QUANTILES.map(|quantile| series.quantile(quantile));
+        Self {
+            group: &series.group,
+            name: &series.name,
+            count: series.count(),
+            p50_ns,
+            p90_ns,
+            p99_ns,
+            p99_9_ns,
+            max_ns: series.max(),
+            p50_ns_of_rounds: series.quantile_of_rounds(0.5),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Reduction;
+
+    #[test]
+    fn report_is_written_as_text_and_as_json() {
+        let series = |name: &str, ns: f64| {
+            let mut series = Series::new("group", name, Reduction::Median);
+            series.begin_round();
+            series.add(ns);
+            series
+        };
+        let (ours, theirs) = (series("ours", 1500.0), series("theirs", 1000.0));
+        let ratios = vec![Ratio::of(&ours, &theirs, 0.999, 1.15)];
+        let machine = Machine::of_this_process();
+        let report = BenchReport { what: "latency", machine, series: vec![ours, theirs], ratios, notes: Vec::new() };
+        let text = report.to_string();
+        assert!(text.contains("1.50 of at most 1.15 missed   p99.9 of ours / theirs"), "{text}");
+        let json = serde_json::to_value(&report).unwrap();
+        assert_eq!((&json["ratios"][0]["number"], &json["series"][1]["name"]), (&"p99.9".into(), &"theirs".into()));
+    }
+}

@@ -1,0 +1,39 @@
+//! Options for the configuration files.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use node::configuration::ConfigFiles;
+
+/// Where the configuration lies.
+#[derive(Clone, Debug, clap::Args)]
+pub struct ConfigOptions {
+    /// Folder with mechanism.toml, nominal_half_step.csv, controller.toml, plant.toml and realtime.toml
+    #[arg(long, value_name = "DIR", default_value = "config")]
+    config: PathBuf,
+    /// Robot description [default: mechanism.toml of the folder]
+    #[arg(long, value_name = "FILE")]
+    mechanism: Option<PathBuf>,
+    /// Nominal half-step [default: nominal_half_step.csv of the folder]
+    #[arg(long, value_name = "FILE")]
+    nominal: Option<PathBuf>,
+}
+
+impl ConfigOptions {
+    /// Paths of the configuration files.
+    pub fn files(&self) -> ConfigFiles {
+        let Self { config, mechanism, nominal } = self.clone();
+        ConfigFiles { folder: config, mechanism, nominal }
+    }
+
+    /// The same options as arguments for another process.
+    pub fn arguments(&self) -> Vec<OsString> {
+        let files = [("--mechanism", &self.mechanism), ("--nominal", &self.nominal)];
+        let files = files.into_iter().filter_map(|(option, file)| Some((option, file.as_ref()?)));
+        [("--config", &self.config)]
+            .into_iter()
+            .chain(files)
+            .flat_map(|(option, path)| [option.into(), path.into()])
+            .collect()
+    }
+}

@@ -1,0 +1,92 @@
+//! Options that several commands have in common.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::Args;
+use node::cycle::Clock;
+use runtime::Rate;
+use wire::{Instance, InstanceName};
+
+use crate::error::CliError;
+use crate::process::end_with_parent;
+
+/// Which robot to talk to.
+#[derive(Clone, Debug, Args)]
+pub struct InstanceOption {
+    /// Instance name of the robot: 1 to 32 of a–z, 0–9, _ and -
+    #[arg(long, global = true, value_name = "NAME", default_value = "default")]
+    pub instance: InstanceName,
+}
+
+impl InstanceOption {
+    pub fn instance(&self) -> Result<Instance, CliError> {
+        Ok(Instance::new(self.instance.as_str())?)
+    }
+
+    pub fn at_rate(&self, rate: Rate) -> Result<Instance, CliError> {
+        Ok(self.instance()?.with_rate_hz(rate.hz()))
+    }
+}
+
+/// Duration and clock of a loop.
+#[derive(Clone, Debug, Args)]
+pub struct LoopOptions {
+    /// End after this time, e.g. 20s or 2min [default: run until Ctrl-C]
+    #[arg(long = "for", value_name = "DURATION", value_parser = duration)]
+    pub duration: Option<Duration>,
+    /// Run in lockstep with the other process, deterministic and as fast as possible, instead of in real time
+    #[arg(long)]
+    pub lockstep: bool,
+    /// Start from a stand, feet side by side, instead of in stride
+    #[arg(long)]
+    pub from_stand: bool,
+}
+
+impl LoopOptions {
+    pub fn ticks(&self, rate: Rate) -> Option<u64> {
+        self.duration.map(|duration| rate.ticks(duration).max(1))
+    }
+
+    pub fn clock(&self) -> Clock {
+        if self.lockstep { Clock::Lockstep } else { Clock::Realtime }
+    }
+
+    /// How the process was started, as entries for its recording.
+    pub fn words(&self, instance: &InstanceOption, rate: Rate, fingerprint: u64) -> [(&'static str, String); 7] {
+        [
+            ("version", env!("CARGO_PKG_VERSION").to_owned()),
+            ("protocol", wire::PROTOCOL.to_string()),
+            ("mechanism", format!("{fingerprint:#018x}")),
+            ("instance", instance.instance.to_string()),
+            ("clock", self.clock().text().to_owned()),
+            ("rate_hz", rate.hz().to_string()),
+            ("from_stand", self.from_stand.to_string()),
+        ]
+    }
+}
+
+/// Options of processes that `walk` starts.
+#[derive(Clone, Debug, Args)]
+pub struct ChildOptions {
+    /// Record the run into this folder
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Parent process: this one ends when it does
+    #[arg(long, value_name = "PID", hide = true)]
+    pub parent: Option<u32>,
+}
+
+impl ChildOptions {
+    pub fn bind(&self) -> Result<(), CliError> {
+        self.parent.map_or(Ok(()), end_with_parent)
+    }
+}
+
+/// Shortest duration that is accepted: a shorter one is a mistake.
+const DURATION_MIN: Duration = Duration::from_millis(1);
+
+pub fn duration(text: &str) -> Result<Duration, String> {
+    let duration = humantime::parse_duration(text).map_err(|error| format!("{error}; write e.g. 20s or 2min"))?;
+    if duration < DURATION_MIN { Err("must be at least 1ms".to_owned()) } else { Ok(duration) }
+}

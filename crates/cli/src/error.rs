@@ -1,0 +1,114 @@
+//! Why a command could not do what it was asked to, as the user reads it.
+
+use std::fmt::{self, Display};
+use std::io;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Why a command could not do what it was asked to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CliError {
+    /// Whether the command line or an input file is wrong.
+    bad_input: bool,
+    /// What the user reads.
+    text: String,
+}
+
+impl CliError {
+    /// Something failed while the command ran.
+    pub fn new(text: impl Display) -> Self {
+        Self { bad_input: false, text: text.to_string() }
+    }
+
+    /// The command line or an input file is wrong.
+    pub fn bad_input(text: impl Display) -> Self {
+        Self { bad_input: true, text: text.to_string() }
+    }
+
+    /// A file or folder cannot be read or written.
+    pub fn file(path: &Path) -> impl Fn(io::Error) -> Self {
+        move |error| Self::new(format!("{}: {error}", path.display()))
+    }
+
+    /// The exit code of the program: 2 for a wrong command line or input file, else 1.
+    pub fn exit_code(&self) -> ExitCode {
+        ExitCode::from(if self.bad_input { 2 } else { 1 })
+    }
+}
+
+impl Display for CliError {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        out.write_str(&self.text)
+    }
+}
+
+impl From<wire::ConnectError> for CliError {
+    fn from(error: wire::ConnectError) -> Self {
+        Self { bad_input: matches!(error, wire::ConnectError::BadName { .. }), text: error.to_string() }
+    }
+}
+
+impl From<wire::RequestError> for CliError {
+    fn from(error: wire::RequestError) -> Self {
+        Self::new(error)
+    }
+}
+
+impl From<wire::TransportError> for CliError {
+    fn from(fault: wire::TransportError) -> Self {
+        Self::new(fault)
+    }
+}
+
+impl From<operator::OperatorError> for CliError {
+    fn from(error: operator::OperatorError) -> Self {
+        match error {
+            operator::OperatorError::Connect(error) => error.into(),
+            error => Self::new(error),
+        }
+    }
+}
+
+impl From<node::NodeError> for CliError {
+    fn from(error: node::NodeError) -> Self {
+        match error {
+            node::NodeError::Recording(error) => error.into(),
+            node::NodeError::Configuration(_) => Self::bad_input(error),
+            error => Self::new(error),
+        }
+    }
+}
+
+impl From<node::interrupt::ListenError> for CliError {
+    fn from(error: node::interrupt::ListenError) -> Self {
+        Self::new(error)
+    }
+}
+
+impl From<node::engine::EnvironmentError> for CliError {
+    fn from(error: node::engine::EnvironmentError) -> Self {
+        Self::new(error)
+    }
+}
+
+impl From<interchange::import::ImportError> for CliError {
+    fn from(error: interchange::import::ImportError) -> Self {
+        Self::bad_input(error)
+    }
+}
+
+impl From<plots::run_log::CsvError> for CliError {
+    fn from(error: plots::run_log::CsvError) -> Self {
+        Self::new(error)
+    }
+}
+
+impl From<record::RecordError> for CliError {
+    fn from(error: record::RecordError) -> Self {
+        use record::RecordError::{NotMcap, Nothing, OtherVersion};
+        Self {
+            bad_input: matches!(error, Nothing { .. } | NotMcap { .. } | OtherVersion { .. }),
+            text: error.to_string(),
+        }
+    }
+}

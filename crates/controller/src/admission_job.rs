@@ -1,0 +1,204 @@
+//! An admission job: what of a request can be granted, found by simulating the coming half-steps beside the loop.
+//!
+//! The controller opens it with a copy of its pattern generator. The driver takes it, evaluates it (at once in lockstep, on
+//! another thread in real time) and completes it. That takes milliseconds and allocates nothing.
+
+use interface::{ActiveLimit, Command, GaitChange, Intent, Objection, Reason, Request, Verdict};
+use pattern::{Feasibility, FeasibilityCheck, Limit, LimitViolation, PatternGenerator};
+
+use crate::pattern::goal_of;
+
+/// Knots that a request is simulated ahead: 2.8 s, within which turn, extension and speed have all taken effect.
+const KNOTS: usize = 280;
+/// Bisections between the command in force and the requested one in search of what can be granted.
+const BISECTIONS: usize = 4;
+/// A request that would violate a limit this shortly before a support change (s) is evaluated again after it: by then the
+/// centre of mass has moved over the next foot.
+const LATE: f64 = 0.2;
+/// Largest loss of margin against walking on unchanged (m), where walking on violates a limit itself.
+const MARGIN_LOSS_MAX: f64 = 0.002;
+
+/// A request under evaluation.
+#[derive(Clone, Debug)]
+pub struct AdmissionJob {
+    change: GaitChange,
+    intent: Option<Intent>,
+    check: FeasibilityCheck,
+    /// A copy of the controller's generator; once evaluated, how it goes on with what was granted.
+    generator: PatternGenerator,
+    /// Revision of the controller's generator when it was copied.
+    revision: u64,
+    /// The copy that is simulated ahead.
+    trial: PatternGenerator,
+    decision: Option<Decision>,
+}
+
+/// What became of a request.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Decision {
+    /// Granted as requested, in part, or not at all.
+    pub verdict: Verdict,
+    /// What is in force from then on.
+    pub granted: Command,
+    /// The half-step at which all of it is in effect.
+    pub effect_half_step: u64,
+    /// Why it was not granted as requested.
+    pub objection: Option<Objection>,
+    /// Least predicted ZMP margin (m), if half-steps are predicted.
+    pub predicted_margin: Option<f64>,
+}
+
+impl AdmissionJob {
+    /// An empty job, to be opened for each request.
+    pub(crate) fn new(check: FeasibilityCheck, generator: &PatternGenerator) -> Self {
+        Self {
+            change: GaitChange::NONE,
+            intent: None,
+            check,
+            generator: generator.clone(),
+            revision: generator.revision(),
+            trial: generator.clone(),
+            decision: None,
+        }
+    }
+
+    /// Opens it for a request.
+    pub(crate) fn open(&mut self, generator: &PatternGenerator, request: &Request) {
+        (self.change, self.intent, self.decision) = (request.gait, request.intent, None);
+        self.renew(generator);
+    }
+
+    /// Copies the generator as it is now; a decision that is there already is to be applied to that.
+    pub(crate) fn renew(&mut self, generator: &PatternGenerator) {
+        self.generator.clone_from(generator);
+        self.revision = generator.revision();
+    }
+
+    /// Decides what can be granted, unless that is decided, and plans the walk with it. The decision may have to wait for a
+    /// support change; then the job stays undecided, to be renewed and evaluated again.
+    pub fn evaluate(&mut self) {
+        let Some(decision) = self.decision.or_else(|| self.decide()) else { return };
+        let index = self.generator.half_step().index;
+        let applied = apply(&mut self.generator, &decision.granted.into(), self.intent);
+        let arrives = index + u64::from(self.generator.gait_state().half_steps_to_goal());
+        self.decision = Some(Decision { effect_half_step: applied.effect_half_step.max(arrives), ..decision });
+    }
+
+    /// The plan with what was granted, and the decision, once there is one for the generator as it is now.
+    pub(crate) fn decided_for(&self, generator: &PatternGenerator) -> Option<(&PatternGenerator, Decision)> {
+        self.decision.filter(|_| self.revision == generator.revision()).map(|decision| (&self.generator, decision))
+    }
+
+    /// The intent of the request.
+    pub(crate) fn intent(&self) -> Option<Intent> {
+        self.intent
+    }
+
+    fn decide(&mut self) -> Option<Decision> {
+        let in_force = self.generator.command();
+        let change = self.change;
+        let (requested, feasibility) = self.simulate(&change);
+        if feasibility.violation.is_some() && self.is_late() {
+            return None;
+        }
+        let decided = |decision: Decision, feasibility: &Feasibility| {
+            let predicted_margin = Some(feasibility.margin).filter(|margin| margin.is_finite());
+            Some(Decision { predicted_margin, ..decision })
+        };
+        // A stop is granted whatever it costs; and there is nothing to search for when no limit is violated.
+        let is_stop = self.intent.is_some_and(Intent::is_stop);
+        if requested.verdict == Verdict::Refused || feasibility.violation.is_none() || is_stop {
+            return decided(requested, &feasibility);
+        }
+        let (_, unchanged) = self.simulate(&in_force.into());
+        let is_permitted = |feasibility: &Feasibility| match (feasibility.violation, unchanged.violation) {
+            (None, _) => true,
+            (Some(_), None) => false,
+            (Some(violation), Some(before)) => {
+                let both_margins = violation.limit == Limit::Margin && before.limit == Limit::Margin;
+                both_margins && feasibility.margin > unchanged.margin - MARGIN_LOSS_MAX
+                    || violation.limit == before.limit && !both_margins
+            }
+        };
+        if is_permitted(&feasibility) {
+            return decided(requested, &feasibility);
+        }
+        let (mut best, mut best_share) = (unchanged, 0.0);
+        let mut step = 0.5;
+        for _ in 0..BISECTIONS {
+            let share = best_share + step;
+            let (_, feasibility) = self.simulate(&between(&in_force, &requested.granted, share).into());
+            if is_permitted(&feasibility) {
+                (best, best_share) = (feasibility, share);
+            }
+            step /= 2.0;
+        }
+        let verdict = if best_share > 0.0 { Verdict::Limited } else { Verdict::Refused };
+        let granted = between(&in_force, &requested.granted, best_share);
+        let objection = feasibility.violation.as_ref().map(objection).or(requested.objection);
+        decided(Decision { verdict, granted, objection, ..requested }, &best)
+    }
+
+    /// Whether a support change is near; never in the first half of a half-step, so that no request waits for ever.
+    fn is_late(&self) -> bool {
+        let left = 1.0 - self.generator.half_step().progress;
+        let late = LATE * self.generator.speed() / self.generator.walk().table().duration;
+        self.generator.gait_state().is_stepping() && left < late.min(0.5)
+    }
+
+    /// Simulates the coming knots with a change.
+    fn simulate(&mut self, change: &GaitChange) -> (Decision, Feasibility) {
+        self.trial.clone_from(&self.generator);
+        let decision = apply(&mut self.trial, change, self.intent);
+        (decision, self.check.play(&mut self.trial, KNOTS))
+    }
+}
+
+/// Applies what the configured range admits of a change, and the intent.
+fn apply(generator: &mut PatternGenerator, change: &GaitChange, intent: Option<Intent>) -> Decision {
+    let gait::Admission { verdict, objection, granted, effect_half_step } = generator.admit(change);
+    if verdict != Verdict::Refused
+        && let Some(goal) = intent.and_then(goal_of)
+    {
+        generator.set_goal(goal);
+    }
+    Decision { verdict, granted, effect_half_step, objection, predicted_margin: None }
+}
+
+/// A violated limit in the words of a reply.
+fn objection(violation: &LimitViolation) -> Objection {
+    let (reason, joint) = match violation.limit {
+        Limit::Margin => (Reason::Margin, None),
+        Limit::JointRange(joint) => (Reason::JointRange, Some(joint)),
+        Limit::JointRate(joint) => (Reason::JointRate, Some(joint)),
+        Limit::Voltage(joint) => (Reason::Voltage, Some(joint)),
+        Limit::SoleClearance => (Reason::SoleClearance, None),
+        // Value and bound mean nothing.
+        Limit::LegReach => return Objection { reason: Reason::LegReach, active_limit: None },
+    };
+    let active_limit = Some(ActiveLimit { joint, value: violation.value, limit: violation.bound });
+    Objection { reason, active_limit }
+}
+
+/// A share of the way from one command to another.
+fn between(from: &Command, to: &Command, share: f64) -> Command {
+    let mix = |from: f64, to: f64| from + (to - from) * share;
+    Command {
+        turn: mix(from.turn, to.turn),
+        speed: mix(from.speed, to.speed),
+        extension: mix(from.extension, to.extension),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_violated_joint_limit_is_named_with_its_joint() {
+        let joint = model::Joint::RightKnee;
+        let violation = LimitViolation { limit: Limit::JointRate(joint), value: 14.0, bound: 12.0 };
+        let active_limit = Some(ActiveLimit { joint: Some(joint), value: 14.0, limit: 12.0 });
+        assert_eq!(objection(&violation), Objection { reason: Reason::JointRate, active_limit });
+    }
+}

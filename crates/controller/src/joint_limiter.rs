@@ -1,0 +1,51 @@
+//! The joint limiter: every setpoint passes it last. Angles stay in range, rates within limits, values finite.
+
+use interface::{Fault, Faults, Setpoint};
+use model::{Joint, JointVector, Mechanism, Motion, PerJoint};
+
+/// Limits setpoints to what the joints permit.
+#[derive(Clone, Debug)]
+pub struct JointLimiter {
+    limits: PerJoint<Option<model::JointLimits>>,
+    last: JointVector,
+}
+
+impl JointLimiter {
+    /// A limiter for a mechanism whose joints are at `angles` now (rad).
+    pub fn new(mechanism: &Mechanism, angles: &JointVector) -> Self {
+        Self { limits: PerJoint::from_fn(|joint| mechanism.links[joint].limits), last: *angles }
+    }
+
+    /// The permitted setpoint nearest to the commanded motion; `dt` is the time since the last one (s).
+    pub fn limit(&mut self, commanded: &Motion, feed_forward: &JointVector, dt: f64, faults: &mut Faults) -> Setpoint {
+        if !(commanded.is_finite() && feed_forward.is_finite()) {
+            faults.insert(Fault::SetpointNotFinite);
+            return self.hold();
+        }
+        let mut setpoint = Setpoint { angles: self.last, rates: JointVector::ZERO, feed_forward: JointVector::ZERO };
+        for joint in Joint::ALL {
+            let Some(limits) = &self.limits[joint] else { continue };
+            let in_range = commanded.angles[joint].clamp(limits.angle_min, limits.angle_max);
+            let step_max = limits.rate_max * dt;
+            let angle = in_range.clamp(self.last[joint] - step_max, self.last[joint] + step_max);
+            let rate = commanded.rates[joint].clamp(-limits.rate_max, limits.rate_max);
+            if in_range != commanded.angles[joint] {
+                faults.insert(Fault::AngleLimited);
+            }
+            if angle != in_range || rate != commanded.rates[joint] {
+                faults.insert(Fault::RateLimited);
+            }
+            setpoint.angles[joint] = angle;
+            // A joint whose angle was limited must not be carried on by its rate.
+            setpoint.rates[joint] = if angle == commanded.angles[joint] { rate } else { 0.0 };
+            setpoint.feed_forward[joint] = feed_forward[joint];
+        }
+        self.last = setpoint.angles;
+        setpoint
+    }
+
+    /// The angles of the last setpoint, at rest.
+    pub fn hold(&self) -> Setpoint {
+        Setpoint { angles: self.last, rates: JointVector::ZERO, feed_forward: JointVector::ZERO }
+    }
+}

@@ -1,0 +1,124 @@
+//! The operating state: what moves the joints, and every transition of it.
+//!
+//! | from | event | to |
+//! |---|---|---|
+//! | any | the trunk stays tilted beyond recovery | fallen, latched: no joint moves |
+//! | gait, recovering | a measurement times out, a setpoint is not finite | the same, latched; a walk stops in stride |
+//! | fallen | reset while upright and measured | recovering, intent stop |
+//! | gait, latched | reset while upright and measured | gait |
+//! | recovering | the joints have arrived | gait, standing |
+//!
+//! Within the gait, the transitions between standing, starting, walking, stepping in place and stopping are
+//! [`GaitState`](pattern::GaitState)'s. The [`Mode`] that is reported follows from both.
+
+use interface::{Fault, Intent, Mode};
+use model::Motion;
+use pattern::{GaitPhase, Stance};
+
+use crate::recovery::Recovery;
+
+/// What moves the joints.
+// The loop must not allocate a box for the largest.
+#[allow(clippy::large_enum_variant)]
+#[derive(Clone, Debug)]
+enum Activity {
+    /// The gait pattern is played.
+    Gait,
+    /// After a fall: the joints hold.
+    Fallen,
+    /// After a fall and a reset: the joints return to a stand.
+    Recovering(Recovery),
+}
+
+/// What moves the joints, what is intended, and which fault is latched.
+#[derive(Clone, Debug)]
+pub(crate) struct OperatingState {
+    activity: Activity,
+    /// What is intended.
+    intent: Intent,
+    /// The fault that keeps the robot from walking on until a reset.
+    latched: Option<Fault>,
+}
+
+impl OperatingState {
+    /// A gait is played with an intent.
+    pub fn new(intent: Intent) -> Self {
+        Self { activity: Activity::Gait, intent, latched: None }
+    }
+
+    /// What is intended.
+    pub fn intent(&self) -> Intent {
+        self.intent
+    }
+
+    /// Another intent is granted.
+    pub fn set_intent(&mut self, intent: Intent) {
+        self.intent = intent;
+    }
+
+    /// The fault that is latched, if any.
+    pub fn latched(&self) -> Option<Fault> {
+        self.latched
+    }
+
+    /// Whether the robot has fallen and was not reset since.
+    pub fn has_fallen(&self) -> bool {
+        matches!(self.activity, Activity::Fallen)
+    }
+
+    /// Whether the gait pattern is played.
+    pub fn plays_gait(&self) -> bool {
+        matches!(self.activity, Activity::Gait)
+    }
+
+    /// Latches a fall.
+    pub fn fall(&mut self) {
+        self.activity = Activity::Fallen;
+        self.latched = Some(Fault::Fallen);
+    }
+
+    /// Latches another fault than a fall, and returns whether a walk has to be stopped because of it. After a fall nothing
+    /// changes.
+    pub fn latch(&mut self, fault: Fault) -> bool {
+        if self.has_fallen() {
+            return false;
+        }
+        self.latched = Some(fault);
+        self.intent.steps()
+    }
+
+    /// Clears a latched fault after which the gait goes on.
+    pub fn clear_fault(&mut self) {
+        self.latched = None;
+    }
+
+    /// Clears a fall: the joints return to a stand.
+    pub fn recover(&mut self, recovery: Recovery) {
+        *self = Self { activity: Activity::Recovering(recovery), intent: Intent::Stop, latched: None };
+    }
+
+    /// Moves a recovery on by `dt` (s) and returns its motion, by physical joint; `None` once the gait is played.
+    pub fn advance_recovery(&mut self, dt: f64) -> Option<Motion> {
+        let Activity::Recovering(recovery) = &mut self.activity else { return None };
+        let motion = recovery.advance(dt);
+        if motion.is_none() {
+            self.activity = Activity::Gait;
+        }
+        motion
+    }
+
+    /// The mode to report while the gait is in `phase`.
+    pub fn mode(&self, phase: GaitPhase) -> Mode {
+        match (&self.activity, phase) {
+            (Activity::Fallen, _) => Mode::Fallen,
+            (Activity::Recovering(_), _) => Mode::Starting,
+            (Activity::Gait, GaitPhase::Standing(_)) if self.latched.is_some() => Mode::Faulted,
+            (Activity::Gait, GaitPhase::Standing(Stance::Parallel)) => Mode::Standing,
+            (Activity::Gait, GaitPhase::Standing(Stance::Stride)) => Mode::Holding,
+            (Activity::Gait, GaitPhase::Starting) => Mode::Starting,
+            (Activity::Gait, GaitPhase::Walking) => Mode::Walking,
+            (Activity::Gait, GaitPhase::InPlace) => Mode::InPlace,
+            (Activity::Gait, GaitPhase::Stopping) => Mode::Stopping,
+        }
+    }
+}

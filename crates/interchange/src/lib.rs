@@ -1,0 +1,5 @@
+//! Robot descriptions of other programs: export as URDF and MJCF, import from URDF.
+
+pub mod import;
+pub mod mjcf;
+pub mod urdf;

@@ -1,0 +1,347 @@
+//! The mechanism as MJCF, MuJoCo's own format.
+//!
+//! A floating tree: the free joint carries the right foot, whose frame lies on the sole, so that joints 1 and 2, the
+//! contact of foot and ground, arise from contact. Joints 3 to 20 keep their names; those that meet in one point share a
+//! body, so that no body is massless. Rotors enter as `armature`. Only soles and floor collide.
+//!
+//! The actuators are plain torque motors, limited to the motor's torque at standstill: position servo and back-EMF belong
+//! to the drive, which `plant::Drive` or `tools/mujoco_plant` adds.
+//!
+//! # Contact
+//!
+//! MuJoCo defines a contact's stiffness as a time constant, independent of the mass on it. The one chosen here is critically
+//! damped, as fast as the springs of `config/plant.toml` are under the robot's weight (four corners of 1e6 N/m under 73 kg ring at
+//! 234 rad/s, 1/234 s = 4.3 ms), and nearly all constraint: a standing sole sinks in by a few micrometres. Friction is a
+//! cone (`elliptic`), a tenth as soft as the normal direction (`impratio`), so that a loaded sole does not creep.
+
+use std::fmt::Write;
+
+use model::{Body, Joint, Mechanism, Side};
+use nalgebra::Vector3;
+use plant::PlantParameters;
+use quick_xml::escape::escape;
+
+use crate::urdf::equivalent_sides;
+
+/// Time constant (s) and damping ratio; impedance from 0.99 to 0.999 over half a millimetre.
+const CONTACT: &str = r#"solref="0.004 1" solimp="0.99 0.999 0.0005""#;
+/// Torsional and rolling friction, which three-dimensional contacts do not use but the format requires.
+const UNUSED_FRICTION: &str = "0.005 0.0001";
+
+/// Writes the mechanism and a floor as MJCF, with friction, slope, payload and integration step from `parameters`.
+///
+/// `period` is the control period (s). The text is complete: MuJoCo loads it without other files.
+pub fn mjcf_text(mechanism: &Mechanism, parameters: &PlantParameters, period: f64) -> String {
+    let mut out = Lines::default();
+    let timestep = period / f64::from(parameters.steps_per_period);
+    let friction = format!(r#"friction="{} {UNUSED_FRICTION}""#, parameters.contact.friction);
+    out.open(format_args!(r#"mujoco model="{}""#, escape(&mechanism.name)));
+    out.line(r#"<compiler angle="radian" inertiafromgeom="false" autolimits="true"/>"#);
+    out.open(format_args!(
+        r#"option timestep="{timestep}" gravity="{}" integrator="implicitfast" cone="elliptic" impratio="10""#,
+        numbers(parameters.slope.gravity().as_slice())
+    ));
+    out.line(r#"<flag autoreset="disable"/>"#);
+    out.close("option");
+    out.line(r#"<statistic center="0 0 0.8" extent="2"/>"#);
+    out.line(r#"<visual><global offwidth="1280" offheight="720"/><headlight ambient="0.4 0.4 0.4"/></visual>"#);
+    appearance(&mut out);
+
+    out.open(r#"worldbody"#);
+    out.line(r#"<light pos="0 0 4" dir="0 0 -1" directional="true"/>"#);
+    out.line(format_args!(
+        r#"<geom name="floor" type="plane" size="0 0 0.5" contype="1" conaffinity="0" condim="3" {friction} {CONTACT} material="floor" rgba="1 1 1 1"/>"#
+    ));
+    body(&mut out, mechanism, parameters, Mechanism::foot(Side::Right), &friction);
+    out.close("worldbody");
+
+    out.open("actuator");
+    for joint in Joint::ALL {
+        let Some(motor) = mechanism.links[joint].motor else { continue };
+        let torque_max = motor.torque_per_volt() * motor.voltage_max;
+        let name = joint.name();
+        out.line(format_args!(
+            r#"<motor name="{name}" joint="{name}" ctrllimited="false" forcerange="{} {torque_max}"/>"#,
+            -torque_max
+        ));
+    }
+    out.close("actuator");
+    sensors(&mut out);
+    out.close("mujoco");
+    out.text
+}
+
+/// Textures and colours for viewers.
+fn appearance(out: &mut Lines) {
+    out.open("asset");
+    out.line(
+        r#"<texture name="floor" type="2d" builtin="checker" rgb1="0.85 0.87 0.9" rgb2="0.75 0.78 0.82" width="200" height="200"/>"#,
+    );
+    out.line(r#"<material name="floor" texture="floor" texrepeat="2 2" texuniform="true"/>"#);
+    out.line(
+        r#"<texture type="skybox" builtin="gradient" rgb1="0.95 0.97 1" rgb2="0.7 0.8 0.9" width="64" height="64"/>"#,
+    );
+    out.close("asset");
+    out.open("default");
+    out.line(r#"<geom contype="0" conaffinity="0" rgba="0.6 0.68 0.78 1"/>"#);
+    out.close("default");
+}
+
+/// The body of a link that weighs something, with the joints that lead to it and all that it carries.
+fn body(out: &mut Lines, mechanism: &Mechanism, parameters: &PlantParameters, link: Joint, friction: &str) {
+    let root = Mechanism::foot(Side::Right);
+    let joints = joints_of(mechanism, link);
+    let origin = |joint: &Joint| mechanism.links[*joint].origin;
+    let place = if link == root { Vector3::zeros() } else { place_on_parent(mechanism, link) };
+    out.open(format_args!(
+        r#"body name="{}" pos="{}""#,
+        link.link_name().unwrap_or(link.name()),
+        numbers(place.as_slice())
+    ));
+    if link == root {
+        out.line(r#"<freejoint name="right_sole"/>"#);
+    } else {
+        for (index, joint) in joints.iter().enumerate() {
+            let back = -joints[index + 1..].iter().map(origin).sum::<Vector3<f64>>();
+            hinge(out, mechanism, *joint, back);
+        }
+    }
+    inertial(out, &mechanism.links[link].body);
+    if let Some(side) = Side::BOTH.into_iter().find(|side| Mechanism::foot(*side) == link) {
+        foot(out, mechanism, side, friction);
+    } else {
+        appearance_of(out, mechanism, link);
+    }
+    if link == Joint::WaistRoll {
+        out.line(r#"<site name="imu"/>"#);
+        payload(out, parameters);
+    }
+    for child in carried_by(mechanism, link) {
+        body(out, mechanism, parameters, child, friction);
+    }
+    out.close("body");
+}
+
+/// The links with mass that are mounted on a link, directly or through massless links.
+fn carried_by(mechanism: &Mechanism, link: Joint) -> impl Iterator<Item = Joint> {
+    let weighs = |joint: &Joint| mechanism.links[*joint].body.mass > 0.0;
+    let hangs_on = move |joint: &Joint| mechanism.links[joints_of(mechanism, *joint)[0]].parent == Some(link);
+    Joint::ALL.into_iter().filter(weighs).filter(hangs_on)
+}
+
+/// The joints between a link and the next link below it that has mass, the lowest first.
+fn joints_of(mechanism: &Mechanism, link: Joint) -> Vec<Joint> {
+    let mut joints = vec![link];
+    while let Some(parent) =
+        mechanism.links[joints[0]].parent.filter(|parent| mechanism.links[*parent].body.mass == 0.0)
+    {
+        joints.insert(0, parent);
+    }
+    joints
+}
+
+/// Origin of a link's frame in the frame of the body that carries it (m): at zero angles all frames are parallel, and origins
+/// add up along the massless links.
+fn place_on_parent(mechanism: &Mechanism, link: Joint) -> Vector3<f64> {
+    joints_of(mechanism, link).iter().map(|joint| mechanism.links[*joint].origin).sum()
+}
+
+fn hinge(out: &mut Lines, mechanism: &Mechanism, joint: Joint, place: Vector3<f64>) {
+    let link = &mechanism.links[joint];
+    let range = link.limits.map_or(String::new(), |l| format!(r#" range="{} {}""#, l.angle_min, l.angle_max));
+    let armature = link.motor.map_or(0.0, |motor| motor.reflected_inertia());
+    out.line(format_args!(
+        r#"<joint name="{}" type="hinge" axis="{}" pos="{}"{range} damping="0" armature="{armature}"/>"#,
+        joint.name(),
+        numbers(link.axis.as_slice()),
+        numbers(place.as_slice()),
+    ));
+}
+
+fn inertial(out: &mut Lines, body: &Body) {
+    out.line(format_args!(
+        r#"<inertial mass="{}" pos="{}" diaginertia="{}"/>"#,
+        body.mass,
+        numbers(body.com.as_slice()),
+        numbers(body.inertia.as_slice())
+    ));
+}
+
+/// Visual shape of a link: rods to the joints that it carries, and the box of its mass and moments if it carries none or
+/// several.
+fn appearance_of(out: &mut Lines, mechanism: &Mechanism, link: Joint) {
+    // There is no rod to a joint at the same point.
+    let ends = carried_by(mechanism, link).map(|child| place_on_parent(mechanism, child));
+    let ends: Vec<_> = ends.filter(|end| end.norm() > 0.0).collect();
+    for end in &ends {
+        out.line(format_args!(r#"<geom type="capsule" fromto="0 0 0 {}" size="0.045"/>"#, numbers(end.as_slice())));
+    }
+    if ends.len() != 1 {
+        let Body { com, .. } = mechanism.links[link].body;
+        let half = equivalent_sides(&mechanism.links[link].body) / 2.0;
+        out.line(format_args!(
+            r#"<geom type="box" pos="{}" size="{}"/>"#,
+            numbers(com.as_slice()),
+            numbers(half.as_slice())
+        ));
+    }
+}
+
+/// Writes the foot as a box on its sole, half as high as the ankle.
+fn foot(out: &mut Lines, mechanism: &Mechanism, side: Side, friction: &str) {
+    let sole = mechanism.sole;
+    let height = sole.ankle_height / 2.0;
+    let at = mechanism.sole_in_foot(side);
+    let half = Vector3::new((sole.ahead + sole.behind) / 2.0, sole.half_width, height / 2.0);
+    let centre = at + Vector3::new((sole.ahead - sole.behind) / 2.0, 0.0, height / 2.0);
+    let name = side_name(side);
+    out.line(format_args!(
+        r#"<geom name="{name}_foot" type="box" pos="{}" size="{}" contype="0" conaffinity="1" condim="3" {friction} {CONTACT} rgba="0.85 0.5 0.25 1"/>"#,
+        numbers(centre.as_slice()),
+        numbers(half.as_slice())
+    ));
+    out.line(format_args!(r#"<site name="{name}_sole" pos="{}"/>"#, numbers(at.as_slice())));
+}
+
+/// What the trunk carries: a point, but for the trace of inertia that MuJoCo wants a body to have.
+fn payload(out: &mut Lines, parameters: &PlantParameters) {
+    let payload = parameters.payload;
+    if payload.mass > 0.0 {
+        out.open(format_args!(r#"body name="payload" pos="{}""#, numbers(payload.at.as_slice())));
+        inertial(out, &Body { mass: payload.mass, com: Vector3::zeros(), inertia: Vector3::repeat(1e-9) });
+        out.line(r#"<geom type="sphere" size="0.05" rgba="0.7 0.4 0.2 1"/>"#);
+        out.close("body");
+    }
+}
+
+/// Writes the sensors: joint angles and rates, the trunk's orientation and rate, and the floor's force on each foot.
+fn sensors(out: &mut Lines) {
+    out.open("sensor");
+    for (kind, suffix) in [("jointpos", "angle"), ("jointvel", "rate")] {
+        for joint in Joint::ALL.into_iter().filter(|joint| joint.is_powered()) {
+            let name = joint.name();
+            out.line(format_args!(r#"<{kind} name="{name}_{suffix}" joint="{name}"/>"#));
+        }
+    }
+    out.line(r#"<framequat name="imu_orientation" objtype="site" objname="imu"/>"#);
+    out.line(r#"<gyro name="imu_rate" site="imu"/>"#);
+    for side in Side::BOTH.map(side_name) {
+        out.line(format_args!(
+            r#"<contact name="{side}_ground" geom1="floor" geom2="{side}_foot" data="force torque pos" reduce="netforce"/>"#
+        ));
+    }
+    out.close("sensor");
+}
+
+const fn side_name(side: Side) -> &'static str {
+    match side {
+        Side::Right => "right",
+        Side::Left => "left",
+    }
+}
+
+/// Numbers in full precision, separated by spaces.
+fn numbers(values: &[f64]) -> String {
+    // Adding zero turns -0 into 0.
+    values.iter().map(|value| (value + 0.0).to_string()).collect::<Vec<_>>().join(" ")
+}
+
+/// XML text, written line by line.
+#[derive(Default)]
+struct Lines {
+    text: String,
+    depth: usize,
+}
+
+impl Lines {
+    fn line(&mut self, line: impl std::fmt::Display) {
+        // A String takes everything.
+        let _ = writeln!(self.text, "{:indent$}{line}", "", indent = 2 * self.depth);
+    }
+
+    /// Opens an element, given by name and attributes without brackets.
+    fn open(&mut self, element: impl std::fmt::Display) {
+        self.line(format_args!("<{element}>"));
+        self.depth += 1;
+    }
+
+    fn close(&mut self, name: &str) {
+        self.depth -= 1;
+        self.line(format_args!("</{name}>"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use config::Config;
+    use nalgebra::Vector3;
+    use plant::{Payload, Slope};
+
+    use super::*;
+
+    fn plant_parameters() -> PlantParameters {
+        PlantParameters::load(format!("{}/../../config/plant.toml", env!("CARGO_MANIFEST_DIR")))
+            .expect("the committed file loads")
+    }
+
+    fn mechanism() -> Mechanism {
+        Mechanism::load(format!("{}/../../config/mechanism.toml", env!("CARGO_MANIFEST_DIR")))
+            .unwrap_or_else(|errors| panic!("{errors}"))
+    }
+
+    /// All values of an attribute in a text.
+    fn values<'t>(text: &'t str, attribute: &str) -> Vec<&'t str> {
+        let from = format!(" {attribute}=\"");
+        text.split(&from).skip(1).filter_map(|rest| rest.split('"').next()).collect()
+    }
+
+    #[test]
+    fn mjcf_model_has_the_mass_of_the_mechanism() {
+        let mechanism = mechanism();
+        let text = mjcf_text(&mechanism, &plant_parameters(), 1e-3);
+        let mass: f64 = values(&text, "mass").iter().map(|mass| mass.parse::<f64>().unwrap()).sum();
+        assert!((mass - mechanism.mass()).abs() < 1e-12, "{mass}");
+        assert_eq!(values(&text, "mass").len(), 12, "no massless bodies");
+    }
+
+    #[test]
+    fn every_powered_joint_is_there_once_and_driven() {
+        let text = mjcf_text(&mechanism(), &plant_parameters(), 1e-3);
+        for joint in Joint::ALL {
+            let count = |tag: &str| text.matches(&format!("<{tag} name=\"{}\"", joint.name())).count();
+            let expected = usize::from(joint.is_powered());
+            assert_eq!((count("joint"), count("motor")), (expected, expected), "{}", joint.name());
+        }
+    }
+
+    #[test]
+    fn every_element_is_closed() {
+        let text = mjcf_text(&mechanism(), &plant_parameters(), 1e-3);
+        let mut open = Vec::new();
+        for line in text.lines().map(str::trim) {
+            let name = line.trim_matches(['<', '>', '/']).split([' ', '>']).next().unwrap();
+            match (line.starts_with("</"), line.contains("/>") || line.contains("</")) {
+                (true, _) => assert_eq!(open.pop(), Some(name)),
+                (false, true) => {}
+                (false, false) => open.push(name),
+            }
+        }
+        assert_eq!(open, Vec::<&str>::new());
+    }
+
+    #[test]
+    fn the_floor_is_the_plants() {
+        let parameters = PlantParameters {
+            slope: Slope { ahead: 0.1, left: 0.0 },
+            payload: Payload { mass: 5.0, at: Vector3::new(0.0, 0.0, 0.28) },
+            steps_per_period: 2,
+            ..plant_parameters()
+        };
+        let text = mjcf_text(&mechanism(), &parameters, 1e-3);
+        assert_eq!(values(&text, "timestep"), ["0.0005"]);
+        assert!(values(&text, "friction").iter().all(|friction| friction.starts_with("0.8 ")));
+        let gravity: Vec<f64> = values(&text, "gravity")[0].split(' ').map(|number| number.parse().unwrap()).collect();
+        assert!((gravity[0] + 9.80665 * 0.1_f64.sin()).abs() < 1e-12, "{gravity:?}");
+        assert!(text.contains(r#"<body name="payload" pos="0 0 0.28">"#));
+    }
+}

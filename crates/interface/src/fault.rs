@@ -1,0 +1,72 @@
+//! What can be wrong in a control period.
+
+use crate::code::codes;
+
+codes! {
+    /// One thing that is wrong in a control period; its number is its bit in [`Faults`].
+    Fault {
+        /// A measurement contains a NaN or infinite value, or its orientation is no rotation; it was not used.
+        MeasurementNotFinite = 1 "a measurement contains a value that is not finite",
+        /// A measurement contains a value that no working sensor of this robot produces; it was not used.
+        MeasurementImplausible = 2 "a measurement contains an implausible value",
+        /// No valid measurement has arrived for longer than the timeout.
+        MeasurementStale = 4 "no valid measurement has arrived for too long",
+        /// A measurement is older than one already used; it was not used.
+        MeasurementOutOfOrder = 8 "a measurement is older than the one before",
+        /// A joint angle of the setpoint was limited to its range.
+        AngleLimited = 16 "a joint angle was limited to its range",
+        /// A joint rate of the setpoint was limited.
+        RateLimited = 32 "a joint rate was limited",
+        /// The computed setpoint was not finite; the last valid one was sent.
+        SetpointNotFinite = 64 "the setpoint was not finite; the last valid one was sent",
+        /// The feet bear too little force for a ZMP estimate.
+        InTheAir = 128 "the feet bear too little force for a zero-moment point",
+        /// The trunk is tilted beyond recovery: the robot has fallen.
+        Fallen = 256 "the robot has fallen",
+        /// The plan needed a foot out of a leg's reach; the posture before was kept.
+        OutOfReach = 1024 "the plan needed a foot out of a leg's reach",
+        /// The control loop missed a deadline.
+        DeadlineMissed = 512 "a deadline was missed",
+    }
+}
+
+/// A set of faults, one bit each. Bits unknown to this version are kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Faults(pub u32);
+
+impl Faults {
+    /// Adds a fault.
+    pub fn insert(&mut self, fault: Fault) {
+        self.0 |= fault.code();
+    }
+
+    /// Whether a fault is in the set.
+    pub fn contains(self, fault: Fault) -> bool {
+        self.0 & fault.code() != 0
+    }
+
+    /// The faults in the set.
+    pub fn iter(self) -> impl Iterator<Item = Fault> {
+        Fault::ALL.iter().copied().filter(move |fault| self.contains(*fault))
+    }
+}
+
+impl FromIterator<Fault> for Faults {
+    fn from_iter<I: IntoIterator<Item = Fault>>(faults: I) -> Self {
+        let mut set = Self::default();
+        faults.into_iter().for_each(|fault| set.insert(fault));
+        set
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_fault_has_a_bit_of_its_own() {
+        let all: Faults = Fault::ALL.iter().copied().collect();
+        assert_eq!(all.0.count_ones() as usize, Fault::ALL.len());
+        assert_eq!(all.iter().collect::<Vec<_>>(), Fault::ALL);
+    }
+}

@@ -1,0 +1,47 @@
+//! What controller, plant and operators exchange, each concept defined once.
+//!
+//! | value | from → to | what it is |
+//! |---|---|---|
+//! | [`Setpoint`] | controller → plant | joint angles, rates and feed-forward torques to reach at the end of a period |
+//! | [`Measurement`] | plant → controller | one sample of all sensors; nothing in it is trusted |
+//! | [`Request`] | operator → controller | a change of gait parameters or [`Intent`], with its [`Source`] and [`Lifetime`] |
+//! | [`Reply`] | controller → operator | the [`Verdict`] on a request, what was granted, and the [`Reason`] if it was less |
+//! | [`Report`] | controller → anyone | the state of the controller after a period: [`Mode`], ZMP, [`Faults`] |
+//!
+//! These are values only: how they travel is the crate `wire`'s affair. All quantities are SI (m, rad, N, s). Joints are
+//! physical: joints 3 to 8 belong to the right leg, whichever foot supports the robot. Points and vectors are expressed in
+//! the support foot's sole frame: origin under the ankle, x forward along the foot, y to the left, z up. Nothing that
+//! leaves the controller is mirrored.
+
+pub mod code;
+mod command;
+mod fault;
+mod half_step;
+mod intent;
+mod lifetime;
+mod measurement;
+mod mode;
+mod period_timing;
+mod reason;
+mod reply;
+mod report;
+mod request;
+mod setpoint;
+mod source;
+mod verdict;
+
+pub use command::{Command, GaitChange};
+pub use fault::{Fault, Faults};
+pub use half_step::HalfStep;
+pub use intent::Intent;
+pub use lifetime::{COMMAND_TIMEOUT_MIN, Lifetime};
+pub use measurement::Measurement;
+pub use mode::Mode;
+pub use period_timing::PeriodTiming;
+pub use reason::Reason;
+pub use reply::{ActiveLimit, ControlAuthority, Objection, Reply};
+pub use report::{AddedAngles, Report};
+pub use request::Request;
+pub use setpoint::Setpoint;
+pub use source::Source;
+pub use verdict::Verdict;

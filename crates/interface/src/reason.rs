@@ -1,0 +1,53 @@
+//! Why a request was limited or refused.
+
+use crate::code::codes;
+
+codes! {
+    /// Why a request was limited or refused.
+    Reason {
+        /// It was granted as requested.
+        None = 0 "accepted as requested",
+        /// The turn is outside the configured range.
+        TurnLimit = 1 "the turn is outside the permitted range",
+        /// The speed is outside the configured range.
+        SpeedLimit = 2 "the speed is outside the permitted range",
+        /// The step extension is outside the configured range.
+        ExtensionLimit = 3 "the step extension is outside the permitted range",
+        /// A requested value is NaN or infinite.
+        NotFinite = 4 "a value is not a finite number",
+        /// The uncompensated gait has stopped and has no plan to start again.
+        CannotRestart = 5 "the uncompensated gait cannot restart from a stand: restart the controller",
+        /// Too many requests are waiting for their tick.
+        QueueFull = 6 "too many requests are waiting for their tick",
+        /// A code in the request is unknown to this controller.
+        UnknownCode = 7 "the request contains a code unknown to this controller",
+        /// The request changes nothing.
+        Empty = 8 "the request is empty",
+        /// The controller is shutting down.
+        ShuttingDown = 9 "the controller is shutting down",
+        /// A source of higher priority is in control: see [`Reply::authority`](crate::Reply::authority).
+        Outranked = 10 "a source of higher priority is in control",
+        /// The predicted ZMP margin would be too small (m).
+        Margin = 11 "the zero-moment point would come too close to the edge of the sole",
+        /// A joint would leave its range (rad).
+        JointRange = 12 "a joint would leave its range",
+        /// A joint would exceed its rate limit (rad/s).
+        JointRate = 13 "a joint would exceed its rate limit",
+        /// A motor would exceed its torque limit (N·m). Reserved: no controller of this version sends it.
+        Torque = 14 "a motor would exceed its torque limit",
+        /// A motor would need more than its supply voltage (V).
+        Voltage = 15 "a motor would need more than its supply voltage",
+        /// The swing sole would come too close to the ground or to the support foot (m).
+        SoleClearance = 16 "the swing foot would come too close to the ground or to the other foot",
+        /// A leg would be overextended.
+        LegReach = 17 "a leg would be overextended",
+        /// A newer request took its place before it could take effect. Reserved: no controller of this version sends it.
+        Superseded = 18 "a newer request replaced it",
+        /// The robot has fallen.
+        Fallen = 19 "the robot has fallen: set it upright and send reset",
+        /// A fault is latched.
+        Faulted = 20 "a fault is latched: send reset",
+        /// The cause of the latched fault is still present.
+        FaultPersists = 21 "the fault persists: the robot must be upright and sending measurements",
+    }
+}

@@ -1,0 +1,49 @@
+//! The state of the controller after a control period.
+
+use model::ComState;
+use nalgebra::Vector2;
+
+use crate::{Faults, HalfStep, Mode};
+
+/// The state of the controller after a control period. Points, vectors and rotations are expressed in the support foot's
+/// sole frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report {
+    /// What the controller is doing.
+    pub mode: Mode,
+    /// The present half-step: its index, its support foot, its progress.
+    pub half_step: HalfStep,
+    /// `c` at this instant; a change of speed passes over a ramp.
+    pub speed: f64,
+    /// `α` in force (rad).
+    pub turn: f64,
+    /// `β` in force (rad).
+    pub extension: f64,
+    /// Measured ZMP (m). `None` when the feet bear too little force, and in the period of a support change, when it is
+    /// known in the frame of the other foot only.
+    pub zmp_in_support: Option<Vector2<f64>>,
+    /// ZMP of the commanded motion (m); `None` after a fall.
+    pub zmp_planned: Option<Vector2<f64>>,
+    /// Signed distance of the measured ZMP to the edge of the support polygon (m), negative outside; `None` in the air.
+    pub margin: Option<f64>,
+    /// Feedback lean of the body over the support ankle, about x (roll) and y (pitch) (rad).
+    pub lean: Vector2<f64>,
+    /// What the plan adds to the plain sum of the modifications. `None` while no plan is played, and for the last knot
+    /// before a support change.
+    pub added: Option<AddedAngles>,
+    /// Centre of mass of the commanded motion; `None` after a fall.
+    pub com_planned: Option<ComState>,
+    /// Measured centre of mass, levelled; `None` as for the ZMP.
+    pub com_measured: Option<ComState>,
+    /// What is wrong.
+    pub faults: Faults,
+}
+
+/// Rotations that the plan adds to the plain sum of the modifications, about x (roll) and y (pitch) (rad).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AddedAngles {
+    /// Rotation of the whole body over the support ankle.
+    pub ankle: Vector2<f64>,
+    /// Rotation of the trunk over the pelvis.
+    pub waist: Vector2<f64>,
+}

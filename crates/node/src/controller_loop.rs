@@ -1,0 +1,102 @@
+//! The controller's loop: wait, read, tick, write.
+
+use controller::{AdmissionWorker, Driver};
+use interface::{Fault, Intent, Mode, PeriodTiming, Request, Source};
+use runtime::now_ns;
+use wire::{LatestWriter, MeasurementMessage, RequestMessage, SetpointMessage};
+
+use crate::cycle::{Cycles, PeerSilent};
+use crate::entry::{ControllerEntry, ControllerEvent};
+use crate::recorder::Recorder;
+use crate::request_bridge::RequestId;
+use crate::request_queue::RequestQueue;
+use crate::timing::{TimingHistogram, TimingStats};
+
+/// Result of a run of the controller's loop.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ControllerRun {
+    /// Control periods since the start.
+    pub ticks: u64,
+    /// Deadlines missed.
+    pub missed: u64,
+    /// Half-steps completed.
+    pub half_steps: u64,
+    /// The mode after the last tick; `None` if the loop never began.
+    pub mode: Option<Mode>,
+    /// How late periods began and how long they took; in lockstep they are never late.
+    pub timing: TimingStats,
+}
+
+/// The request that the loop makes by itself after too many missed deadlines in a row.
+const HOLD: Request = Request { intent: Some(Intent::Hold), ..Request::new(Source::Program) };
+
+/// Runs until the cycles end. After `hold_after_misses` deadlines missed in a row the robot stops in stride; 0 is never.
+///
+/// # Errors
+/// In lockstep no measurement has arrived for too long.
+pub fn run_controller<W: AdmissionWorker>(
+    driver: &mut Driver<W>,
+    cycles: &mut Cycles<MeasurementMessage>,
+    setpoints: &mut LatestWriter<SetpointMessage>,
+    requests: &mut RequestQueue,
+    recorder: &mut Recorder<ControllerEvent>,
+    hold_after_misses: u64,
+) -> Result<ControllerRun, PeerSilent> {
+    let mut run = ControllerRun::default();
+    let mut histogram = TimingHistogram::new();
+    let mut due = None;
+    let mut must_hold = false;
+    while let Some(cycle) = cycles.wait(|| requests.collect(recorder))? {
+        let time_ns = now_ns();
+        run.missed += cycle.missed;
+        must_hold |= hold_after_misses > 0 && cycle.missed_in_a_row >= hold_after_misses;
+
+        requests.collect(recorder);
+        let mut request = 0;
+        let step = driver.step(cycle.dt, Some(&cycle.message.measurement()), || {
+            if std::mem::take(&mut must_hold) {
+                recorder.push(ControllerEvent::Request(RequestId::LOOP.number(), RequestMessage::from(&HOLD)));
+                request = RequestId::LOOP.number();
+                return Some(HOLD);
+            }
+            due = requests.due(cycle.tick);
+            due.as_ref().map(|due| {
+                request = due.id.number();
+                due.request
+            })
+        });
+
+        let setpoint = SetpointMessage::new(cycle.message.tick, time_ns, &step.tick.setpoint);
+        setpoints.write(&setpoint);
+        let compute_ns = now_ns() - time_ns;
+        histogram.add(cycle.late_ns, compute_ns);
+
+        let mut tick = step.tick;
+        if cycle.missed > 0 {
+            tick.report.faults.insert(Fault::DeadlineMissed);
+        }
+        recorder.push(ControllerEvent::Tick(ControllerEntry {
+            timing: PeriodTiming { tick: cycle.tick, time_ns, missed: run.missed, compute_ns },
+            periods: cycle.periods,
+            dt: cycle.dt,
+            measurement: cycle.message,
+            request,
+            admission: step.admission,
+            tick,
+        }));
+        requests.answer(due.take_if(|_| tick.reply.is_some()), &tick, recorder);
+        let (half_steps, mode) = (tick.report.half_step.index, Some(tick.report.mode));
+        run = ControllerRun { ticks: cycle.tick + 1, half_steps, mode, ..run };
+    }
+    Ok(ControllerRun { timing: histogram.stats(), ..run })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_request_of_the_loop_itself_replays_from_its_message() {
+        assert_eq!(RequestMessage::from(&HOLD).checked(), Ok(HOLD));
+    }
+}

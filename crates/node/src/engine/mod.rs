@@ -1,0 +1,13 @@
+//! External physics engines: other programs that compute the robot's physics for the plant.
+//!
+//! An engine is a process that communicates through its stdin and stdout. It receives the robot as one line of JSON and
+//! then one setpoint per control period, which it answers with a state (little-endian doubles, see
+//! `tools/mujoco_plant/plant.py`). Services, clock, sensors, faults and recording stay in this process, so that both plants
+//! differ in nothing but physics, and a run in lockstep depends on nothing but its inputs.
+
+mod environment;
+mod external_engine;
+mod message;
+
+pub use environment::{EnvironmentError, is_installed, mujoco, python};
+pub use external_engine::{EngineError, EngineSetup, ExternalEngine};

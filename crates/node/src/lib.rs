@@ -1,0 +1,28 @@
+//! Controller and plant as processes.
+//!
+//! * The loops are in [`controller_loop`] and [`plant_loop`]; [`cycle`] decides when they run.
+//! * Beside the controller's loop, threads do what allocates or takes long: [`request_bridge`] for operators,
+//!   [`admission_worker`] for requests that must be simulated ahead, [`recorder`] for recordings and observers.
+//! * [`replay`] runs a controller on recorded inputs, and compares the setpoints.
+//! * [`configuration`] and [`realtime`] read what a process needs; [`engine`] runs another program's physics.
+//!
+//! The crates below do not depend on each other: [`exchange`] converts what they pass to one another.
+
+pub mod admission_worker;
+pub mod configuration;
+pub mod controller_loop;
+pub mod cycle;
+pub mod engine;
+pub mod entry;
+pub mod error;
+pub mod interrupt;
+pub mod plant_loop;
+pub mod realtime;
+pub mod recorder;
+pub mod replay;
+pub mod request_bridge;
+pub mod request_queue;
+pub mod summary;
+pub mod timing;
+
+pub use error::NodeError;

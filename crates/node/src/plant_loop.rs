@@ -1,0 +1,113 @@
+//! The plant's loop: wait, read, step, write.
+
+use std::time::Duration;
+
+use interface::{Measurement, Setpoint};
+use plant::Plant;
+use runtime::{Rate, now_ns};
+use wire::{LatestWriter, MeasurementMessage, SetpointMessage};
+
+use crate::cycle::Cycles;
+use crate::engine::EngineError;
+use crate::entry::PlantEntry;
+use crate::error::NodeError;
+use crate::recorder::Recorder;
+
+/// Time between two records of the robot's true state.
+const TRUTH_INTERVAL: Duration = Duration::from_millis(5);
+/// How long the run goes on after the robot has fallen, if the run ends with a fall.
+const AFTER_FALL: Duration = Duration::from_millis(500);
+
+/// Result of a run of the plant's loop.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PlantRun {
+    /// Simulated control periods.
+    pub ticks: u64,
+    /// Deadlines missed.
+    pub missed: u64,
+    /// Wall-clock time from the first step to the last (ns).
+    pub wall_ns: u64,
+    /// The control period in which the robot fell.
+    pub fell_at: Option<u64>,
+}
+
+/// The loop's intervals in control periods.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Intervals {
+    truth_ticks: u64,
+    after_fall_ticks: u64,
+}
+
+impl Intervals {
+    fn at(rate: Rate) -> Self {
+        Self { truth_ticks: rate.ticks(TRUTH_INTERVAL).max(1), after_fall_ticks: rate.ticks(AFTER_FALL) }
+    }
+}
+
+/// Runs until the cycles end or, if `end_when_fallen`, until half a second after the robot has fallen. Before the first
+/// setpoint arrives the robot is held in the posture `initial`. `step` computes the physics of one control period.
+///
+/// # Errors
+/// In lockstep no setpoint has arrived for too long, or the physics cannot be computed.
+pub fn run_plant(
+    plant: &mut Plant,
+    mut step: impl FnMut(&mut Plant, &Setpoint) -> Result<Measurement, EngineError>,
+    initial: Setpoint,
+    cycles: &mut Cycles<SetpointMessage>,
+    measurements: &mut LatestWriter<MeasurementMessage>,
+    recorder: &mut Recorder<PlantEntry>,
+    end_when_fallen: bool,
+) -> Result<PlantRun, NodeError> {
+    let mut run = PlantRun::default();
+    let mut setpoint = initial;
+    let mut began_ns = None;
+    let Intervals { truth_ticks, after_fall_ticks } = Intervals::at(cycles.rate());
+    let mut next_truth = truth_ticks;
+    recorder.push(PlantEntry { tick: 0, angles: plant.robot.angles, truth: plant.truth() });
+    measurements.write(&MeasurementMessage::new(0, now_ns(), &plant.measure()));
+
+    while let Some(cycle) = cycles.wait(|| ())? {
+        let began_ns = *began_ns.get_or_insert_with(now_ns);
+        run.missed += cycle.missed;
+
+        // An invalid setpoint is not obeyed: the drives keep the last one.
+        if let Ok(valid) = cycle.message.checked() {
+            setpoint = valid;
+        }
+
+        let mut measured = step(plant, &setpoint)?;
+        for _ in 1..cycle.periods {
+            measured = step(plant, &setpoint)?;
+        }
+        run.ticks = cycle.tick + 1;
+
+        measurements.write(&MeasurementMessage::new(run.ticks, now_ns(), &measured));
+        run.wall_ns = now_ns() - began_ns;
+
+        if run.ticks >= next_truth {
+            next_truth = run.ticks - run.ticks % truth_ticks + truth_ticks;
+            let truth = plant.truth();
+            if truth.has_fallen() {
+                run.fell_at.get_or_insert(run.ticks);
+            }
+            recorder.push(PlantEntry { tick: run.ticks, angles: plant.robot.angles, truth });
+        }
+        if end_when_fallen && run.fell_at.is_some_and(|tick| run.ticks >= tick + after_fall_ticks) {
+            break;
+        }
+    }
+    Ok(run)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn run_ends_half_a_second_after_a_fall_at_any_rate() {
+        for (hz, truth_ticks, after_fall_ticks) in [(250, 1, 125), (1000, 5, 500), (4000, 20, 2000)] {
+            let rate = Rate::new(hz).expect("a rate that loops can keep");
+            assert_eq!(Intervals::at(rate), Intervals { truth_ticks, after_fall_ticks }, "{rate}");
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! Writes recordings and publishes reports in a thread of its own, so that the loops do not have to.
+
+use std::path::Path;
+use std::time::Duration;
+
+use record::{Metadata, Provenance, RecordError, RecordingWriter, RunEvent};
+use runtime::{Journal, JournalEnd, Rate};
+use wire::ReportPublisher;
+
+use crate::cycle::Clock;
+use crate::entry::{ControllerEvent, PlantEntry};
+use crate::error::NodeError;
+
+/// How far the thread may fall behind before entries are lost.
+const LAG_MAX: Duration = Duration::from_millis(4096);
+
+/// Takes entries from a loop. Dropping it ends the thread once everything is written.
+#[derive(Debug)]
+pub struct Recorder<E: Copy + Send + 'static> {
+    journal: Journal<E>,
+    clock: Clock,
+}
+
+/// The thread that writes a recorder's entries.
+#[must_use = "whether everything was written is known only after `finish`"]
+pub struct RecorderThread {
+    thread: JournalEnd<RecordWriter>,
+    clock: Clock,
+    /// The recording process: `controller` or `plant`.
+    name: &'static str,
+}
+
+/// Writes events to the recording, if there is one, until the first error.
+struct RecordWriter {
+    recording: Option<RecordingWriter>,
+    result: Result<(), RecordError>,
+    rate: Rate,
+    /// Number of the newest tick, whose time the events get.
+    tick: u64,
+}
+
+/// Opens the controller's recorder. It publishes the report of each tick to observers and, if `to` names a folder, writes
+/// all events into the controller's recording there.
+///
+/// # Errors
+/// The recording cannot be created, or the operating system refused a thread.
+pub fn of_controller(
+    clock: Clock,
+    rate: Rate,
+    to: Option<(&Path, Provenance)>,
+    mut reports: ReportPublisher,
+) -> Result<(Recorder<ControllerEvent>, RecorderThread), NodeError> {
+    let mut is_first_failure = true;
+    let take = move |writer: &mut RecordWriter, event: ControllerEvent| match event {
+        ControllerEvent::Request(number, message) => writer.write(number, &[RunEvent::Request(message)]),
+        ControllerEvent::Reply(number, message) => writer.write(number, &[RunEvent::Reply(message)]),
+        ControllerEvent::Tick(entry) => {
+            if let Err(fault) = reports.publish(&entry.report())
+                && std::mem::replace(&mut is_first_failure, false)
+            {
+                tracing::warn!("observers do not hear everything: {fault}");
+            }
+            writer.tick = entry.timing.tick;
+            writer.write(entry.timing.tick as u32, &entry.events());
+        }
+    };
+    open(clock, rate, to.map(|(folder, origin)| (folder, record::CONTROLLER_FILE, origin)), "controller", take)
+}
+
+/// Opens the plant's recorder. If `to` names a folder, it writes each entry into the plant's recording there.
+///
+/// # Errors
+/// The recording cannot be created, or the operating system refused a thread.
+pub fn of_plant(
+    clock: Clock,
+    rate: Rate,
+    to: Option<(&Path, Provenance)>,
+) -> Result<(Recorder<PlantEntry>, RecorderThread), NodeError> {
+    let take = |writer: &mut RecordWriter, entry: PlantEntry| {
+        writer.tick = entry.tick;
+        writer.write(entry.tick as u32, &[entry.event()]);
+    };
+    open(clock, rate, to.map(|(folder, origin)| (folder, record::PLANT_FILE, origin)), "plant", take)
+}
+
+fn open<E: Copy + Send + 'static>(
+    clock: Clock,
+    rate: Rate,
+    to: Option<(&Path, &str, Provenance)>,
+    name: &'static str,
+    take: impl FnMut(&mut RecordWriter, E) + Send + 'static,
+) -> Result<(Recorder<E>, RecorderThread), NodeError> {
+    let create = |(folder, file, origin): (&Path, &str, Provenance)| {
+        std::fs::create_dir_all(folder).map_err(NodeError::file(folder))?;
+        // What is left of an earlier run there would be taken for a part of this one.
+        let _ = std::fs::remove_file(folder.join(record::RUN_FILE));
+        RecordingWriter::create(&folder.join(file), &origin).map_err(NodeError::from)
+    };
+    let writer = RecordWriter { recording: to.map(create).transpose()?, result: Ok(()), rate, tick: 0 };
+    let (journal, thread) = Journal::open("recorder", capacity(rate), writer, take).map_err(NodeError::Thread)?;
+    Ok((Recorder { journal, clock }, RecorderThread { thread, clock, name }))
+}
+
+/// Entries that may wait for the thread, with about one entry per period.
+fn capacity(rate: Rate) -> usize {
+    rate.ticks(LAG_MAX) as usize
+}
+
+impl RecordWriter {
+    /// Writes events of the newest tick. After the first failure nothing more is written, so that there are no gaps.
+    fn write(&mut self, number: u32, events: &[RunEvent]) {
+        let time_ns = (self.rate.time(self.tick) * 1e9).round() as u64;
+        if let (Some(recording), Ok(())) = (&mut self.recording, &self.result) {
+            self.result = events.iter().try_for_each(|event| recording.write(time_ns, number, event));
+        }
+    }
+}
+
+impl<E: Copy + Send + 'static> Recorder<E> {
+    /// Hands an entry to the thread. When the thread has fallen behind, the entry is lost in real time; in lockstep the loop
+    /// waits.
+    pub fn push(&mut self, entry: E) {
+        while !self.journal.push(entry) && self.clock == Clock::Lockstep {
+            std::thread::yield_now();
+        }
+    }
+}
+
+impl RecorderThread {
+    /// Waits until everything is written, which needs the [`Recorder`] to be dropped. Returns the number of lost entries,
+    /// which is also noted in the recording.
+    ///
+    /// # Errors
+    /// The recording could not be written.
+    pub fn finish(self) -> Result<u64, NodeError> {
+        let written = self.thread.join();
+        // In lockstep a full ring meant waiting, not losing.
+        let lost = if self.clock == Clock::Lockstep { 0 } else { written.dropped };
+        let writer = written.sink;
+        writer.result?;
+        if let Some(mut recording) = writer.recording {
+            recording.write_metadata(&Metadata::new(&format!("{} end", self.name), [("lost", lost.to_string())]))?;
+            recording.finish()?;
+        }
+        Ok(lost)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thread_may_fall_behind_by_four_seconds_at_any_rate() {
+        let at = |hz| capacity(Rate::new(hz).expect("a rate that loops can keep"));
+        assert_eq!([250, 1000, 4000].map(at), [1024, 4096, 16384]);
+    }
+}

@@ -1,0 +1,179 @@
+//! Bridge between the loop and the operators: takes requests out of shared memory and sends the replies.
+//!
+//! Both allocate and may map memory when an operator comes or goes, so that in real time a thread beside the loop does
+//! it, with a lock-free queue each way. In lockstep the loop does it itself: a request that was sent before a tick is
+//! handled in that tick.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use crossbeam::queue::ArrayQueue;
+use runtime::Scheduling;
+use wire::{ReplyMessage, RequestMessage, RequestServer, Responder};
+
+use crate::cycle::Clock;
+use crate::error::NodeError;
+
+/// A request as the loop receives it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IncomingRequest {
+    /// Routes the reply back to the operator.
+    pub id: RequestId,
+    /// The request as the operator sent it, unchecked.
+    pub message: RequestMessage,
+}
+
+/// Identifies a request within one run of the controller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct RequestId(u32);
+
+/// Delivers requests to the loop and takes its replies.
+pub enum RequestBridge {
+    /// The loop itself reads and writes shared memory.
+    Inline(RequestIo),
+    /// A thread beside the loop reads and writes shared memory.
+    Threaded {
+        /// Shared between loop and thread.
+        queues: Arc<Queues>,
+        /// Returns its [`RequestIo`] when it ends.
+        thread: JoinHandle<RequestIo>,
+    },
+}
+
+/// Reads requests from shared memory, and remembers where each reply has to go.
+pub struct RequestIo {
+    server: RequestServer,
+    unanswered: HashMap<RequestId, Responder>,
+    last: RequestId,
+}
+
+/// The queues between the loop and the thread.
+#[derive(Debug)]
+pub struct Queues {
+    requests: ArrayQueue<IncomingRequest>,
+    replies: ArrayQueue<(RequestId, ReplyMessage)>,
+    closed: AtomicBool,
+}
+
+/// Most requests that wait for the loop at once: the loop takes all of them within one period.
+const REQUESTS: usize = 8;
+/// How long the thread sleeps when there is nothing to do: a fraction of a period.
+const POLL_INTERVAL: Duration = Duration::from_micros(100);
+
+impl RequestId {
+    /// Requests of the loop itself; their replies go nowhere.
+    pub const LOOP: Self = Self(u32::MAX);
+
+    /// The number in recordings: requests are counted from 1 in the order of their arrival.
+    pub const fn number(self) -> u32 {
+        self.0
+    }
+}
+
+impl RequestBridge {
+    /// A bridge for a clock; at most `unanswered` requests will be without a reply at a time. A thread asks the system for
+    /// `scheduling` and runs on with whatever it is granted.
+    ///
+    /// # Errors
+    /// The operating system refused another thread.
+    pub fn new(
+        server: RequestServer,
+        clock: Clock,
+        unanswered: usize,
+        scheduling: Scheduling,
+    ) -> Result<Self, NodeError> {
+        let mut io = RequestIo { server, unanswered: HashMap::new(), last: RequestId(0) };
+        if clock == Clock::Lockstep {
+            return Ok(RequestBridge::Inline(io));
+        }
+        let queues = Arc::new(Queues {
+            requests: ArrayQueue::new(REQUESTS),
+            replies: ArrayQueue::new(unanswered + REQUESTS),
+            closed: AtomicBool::new(false),
+        });
+        let shared = Arc::clone(&queues);
+        let thread = std::thread::Builder::new()
+            .name("request-bridge".to_owned())
+            .spawn(move || {
+                let _granted = scheduling.request();
+                io.serve(&shared);
+                io
+            })
+            .map_err(NodeError::Thread)?;
+        Ok(RequestBridge::Threaded { queues, thread })
+    }
+
+    /// The next request, if one has arrived. With a thread it neither allocates nor waits, and neither does
+    /// [`reply`](Self::reply).
+    pub fn next_request(&mut self) -> Option<IncomingRequest> {
+        match self {
+            RequestBridge::Inline(io) => io.next_request(),
+            RequestBridge::Threaded { queues, .. } => queues.requests.pop(),
+        }
+    }
+
+    /// Sends the reply to a request.
+    pub fn reply(&mut self, id: RequestId, reply: ReplyMessage) {
+        match self {
+            RequestBridge::Inline(io) => io.reply(id, &reply),
+            // There is room for as many as can be unanswered.
+            RequestBridge::Threaded { queues, .. } => drop(queues.replies.push((id, reply))),
+        }
+    }
+
+    /// Ends the thread, if there is one, after it has sent all replies. Returns the requests that the loop never took.
+    pub fn close(self) -> (RequestIo, Vec<IncomingRequest>) {
+        match self {
+            RequestBridge::Inline(io) => (io, Vec::new()),
+            RequestBridge::Threaded { queues, thread } => {
+                queues.closed.store(true, Ordering::Release);
+                let io = thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+                (io, std::iter::from_fn(|| queues.requests.pop()).collect())
+            }
+        }
+    }
+}
+
+impl RequestIo {
+    /// The next request that an operator has sent.
+    pub fn next_request(&mut self) -> Option<IncomingRequest> {
+        // An operator whose memory cannot be reached has gone; the next call finds the others.
+        let (message, answer) = self.server.next_request().ok().flatten()?;
+        let id = RequestId(self.last.0 + 1);
+        self.last = id;
+        self.unanswered.insert(id, answer);
+        Some(IncomingRequest { id, message })
+    }
+
+    /// Sends the reply to a request.
+    pub fn reply(&mut self, id: RequestId, reply: &ReplyMessage) {
+        if let Some(answer) = self.unanswered.remove(&id) {
+            // Whether the operator is still there to receive it changes nothing.
+            answer.reply(reply);
+        }
+    }
+
+    /// Moves requests and replies between shared memory and the queues until the queues are closed.
+    fn serve(&mut self, queues: &Queues) {
+        loop {
+            // In this order: after closing nothing is replied, so that an empty queue is the end.
+            let closed = queues.closed.load(Ordering::Acquire);
+            while let Some((id, reply)) = queues.replies.pop() {
+                self.reply(id, &reply);
+            }
+            if closed {
+                return;
+            }
+            while !queues.requests.is_full()
+                && let Some(request) = self.next_request()
+            {
+                // The loop only takes out: there is still room.
+                let _ = queues.requests.push(request);
+            }
+            std::thread::sleep(POLL_INTERVAL);
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! Replies as text for users, and as JSON.
+
+use interface::{ActiveLimit, ControlAuthority, Reason, Reply, Request, Verdict};
+use serde::Serialize;
+
+/// A reply as JSON; angles in degrees.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ReplyJson {
+    verdict: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'static str>,
+    effect_half_step: u64,
+    turn_deg: f64,
+    speed: f64,
+    extension_deg: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    intent: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bound: Option<BoundInJson>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    in_command: Option<InCommandInJson>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    predicted_margin_mm: Option<f64>,
+}
+
+/// The active limit of a request, as JSON.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct BoundInJson {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    joint: Option<u8>,
+    value: f64,
+    limit: f64,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    unit: &'static str,
+}
+
+/// The source that holds command, as JSON.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct InCommandInJson {
+    source: &'static str,
+    remaining_s: f64,
+}
+
+impl From<&Reply> for ReplyJson {
+    fn from(reply: &Reply) -> Self {
+        let granted = &reply.granted;
+        Self {
+            verdict: reply.verdict.text(),
+            reason: (reply.reason != Reason::None).then(|| reply.reason.text()),
+            effect_half_step: reply.effect_half_step,
+            turn_deg: rounded(granted.turn.to_degrees()),
+            speed: granted.speed,
+            extension_deg: rounded(granted.extension.to_degrees()),
+            intent: reply.intent.map(|intent| intent.text()),
+            bound: reply.active_limit.map(|bound| {
+                let Unit { per_si, name } = unit(reply.reason);
+                let [value, limit] = [bound.value, bound.limit].map(|number| rounded(number * per_si));
+                BoundInJson { joint: bound.joint.map(|joint| joint.number()), value, limit, unit: name.trim_start() }
+            }),
+            in_command: reply.authority.map(|in_command| InCommandInJson {
+                source: in_command.source.text(),
+                remaining_s: rounded(in_command.remaining),
+            }),
+            predicted_margin_mm: reply.predicted_margin.map(|margin| rounded(margin * 1e3)),
+        }
+    }
+}
+
+/// The reply to a request as a line of text.
+pub fn reply_text(request: &Request, reply: &Reply) -> String {
+    let from = format!("from half-step {}", reply.effect_half_step);
+    let margin = reply.predicted_margin.map(|margin| format!("; predicted ZMP margin {:.1} mm", margin * 1e3));
+    let margin = margin.unwrap_or_default();
+    match reply.verdict {
+        Verdict::Accepted => format!("accepted: {}, {from}{margin}", granted_text(request, reply)),
+        Verdict::Limited => {
+            let (granted, objection) = (granted_text(request, reply), objection_text(request, reply));
+            format!("limited to {granted}, {from}: {objection}{margin}")
+        }
+        Verdict::Refused => format!("refused: {}", objection_text(request, reply)),
+    }
+}
+
+/// Why a request was not granted as requested, with numbers where there are any.
+fn objection_text(request: &Request, reply: &Reply) -> String {
+    if let Some(ControlAuthority { source, remaining }) = reply.authority {
+        let requester = request.source;
+        return format!(
+            "`{source}` is in control and outranks `{requester}`; its authority expires in {remaining:.2} s"
+        );
+    }
+    let Some(ActiveLimit { joint, value, limit }) = reply.active_limit else { return reply.reason.to_string() };
+    let Unit { per_si, name } = unit(reply.reason);
+    let [value, limit] = [value, limit].map(|number| (number * per_si * 1e3).round() / 1e3 + 0.0);
+    let joint = joint.map(|joint| format!("joint {} ({}) ", joint.number(), joint.name())).unwrap_or_default();
+    format!("{} ({joint}{value}{name}, limit {limit}{name})", reply.reason)
+}
+
+/// The unit in which users read the limit of a reason.
+struct Unit {
+    /// How many of this unit one SI unit is.
+    per_si: f64,
+    /// The unit's name as it follows a number.
+    name: &'static str,
+}
+
+fn unit(reason: Reason) -> Unit {
+    const DEGREES: f64 = 180.0 / std::f64::consts::PI;
+    let (per_si, name) = match reason {
+        Reason::TurnLimit | Reason::ExtensionLimit | Reason::JointRange => (DEGREES, "°"),
+        Reason::JointRate => (DEGREES, " °/s"),
+        Reason::Torque => (1.0, " N·m"),
+        Reason::Voltage => (1.0, " V"),
+        Reason::Margin | Reason::SoleClearance | Reason::LegReach => (1e3, " mm"),
+        // The speed is a factor; the others have no limit.
+        Reason::SpeedLimit
+        | Reason::None
+        | Reason::NotFinite
+        | Reason::CannotRestart
+        | Reason::QueueFull
+        | Reason::UnknownCode
+        | Reason::Empty
+        | Reason::ShuttingDown
+        | Reason::Outranked
+        | Reason::Superseded
+        | Reason::Fallen
+        | Reason::Faulted
+        | Reason::FaultPersists => (1.0, ""),
+    };
+    Unit { per_si, name }
+}
+
+/// The granted values of everything that was requested.
+fn granted_text(request: &Request, reply: &Reply) -> String {
+    let granted = &reply.granted;
+    let angle = |name: &str, angle: f64| format!("{name} {}°", rounded(angle.to_degrees()));
+    let parts = [
+        request.gait.turn.map(|_| angle("turn", granted.turn)),
+        request.gait.speed.map(|_| format!("speed {}", rounded(granted.speed))),
+        request.gait.extension.map(|_| angle("extension", granted.extension)),
+        request.intent.map(|intent| intent.text().to_owned()),
+    ];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
+/// A number rounded such that the noise of its last binary digits and `-0` vanish.
+fn rounded(value: f64) -> f64 {
+    (value * 1e9).round() / 1e9 + 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use interface::{Command, GaitChange, Source};
+    use model::Joint;
+
+    use super::*;
+
+    fn reply(verdict: Verdict, reason: Reason) -> Reply {
+        let granted = Command { turn: 10_f64.to_radians(), speed: 1.0, extension: 0.0 };
+        Reply { verdict, ..Reply::refused(reason, 12, granted, None) }
+    }
+
+    fn faster() -> Request {
+        Request { gait: GaitChange { speed: Some(1.5), ..GaitChange::NONE }, ..Request::new(Source::Script) }
+    }
+
+    #[test]
+    fn a_limit_is_named_with_joint_and_numbers() {
+        let rate =
+            ActiveLimit { joint: Some(Joint::RightKnee), value: 14.5_f64.to_radians(), limit: 12_f64.to_radians() };
+        let limited = reply(Verdict::Limited, Reason::JointRate);
+        let limited = Reply { active_limit: Some(rate), predicted_margin: Some(0.0214), ..limited };
+        assert_eq!(
+            reply_text(&faster(), &limited),
+            "limited to speed 1, from half-step 12: a joint would exceed its rate limit (joint 5 (right_knee) 14.5 °/s, \
+             limit 12 °/s); predicted ZMP margin 21.4 mm"
+        );
+        let json = serde_json::to_value(ReplyJson::from(&limited)).unwrap();
+        let bound = serde_json::json!({"joint": 5, "value": 14.5, "limit": 12.0, "unit": "°/s"});
+        assert_eq!((&json["bound"], &json["predicted_margin_mm"]), (&bound, &21.4.into()));
+
+        let active_limit = Some(ActiveLimit { joint: None, value: 9.0, limit: 1.4 });
+        assert_eq!(
+            reply_text(&faster(), &Reply { active_limit, ..reply(Verdict::Refused, Reason::SpeedLimit) }),
+            "refused: the speed is outside the permitted range (9, limit 1.4)"
+        );
+    }
+
+    #[test]
+    fn the_source_in_control_is_named() {
+        let authority = Some(ControlAuthority { source: Source::Teleop, remaining: 0.4201 });
+        let refused = Reply { authority, ..reply(Verdict::Refused, Reason::Outranked) };
+        assert_eq!(
+            reply_text(&faster(), &refused),
+            "refused: `teleop` is in control and outranks `script`; its authority expires in 0.42 s"
+        );
+        let json = serde_json::to_value(ReplyJson::from(&refused)).unwrap();
+        assert_eq!(json["in_command"], serde_json::json!({"source": "teleop", "remaining_s": 0.4201}));
+    }
+
+    #[test]
+    fn a_reply_says_what_is_granted_why_and_from_when() {
+        let turn = GaitChange { turn: Some(15_f64.to_radians()), ..GaitChange::NONE };
+        let request = Request { gait: turn, ..Request::new(Source::Console) };
+        assert_eq!(
+            reply_text(&request, &reply(Verdict::Limited, Reason::TurnLimit)),
+            "limited to turn 10°, from half-step 12: the turn is outside the permitted range"
+        );
+        assert_eq!(
+            reply_text(&request, &reply(Verdict::Accepted, Reason::None)),
+            "accepted: turn 10°, from half-step 12"
+        );
+        assert_eq!(
+            reply_text(&request, &reply(Verdict::Refused, Reason::CannotRestart)),
+            "refused: the uncompensated gait cannot restart from a stand: restart the controller"
+        );
+    }
+}

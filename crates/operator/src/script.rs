@@ -1,0 +1,184 @@
+//! Scripts: requests with their times, one JSON object per line.
+//!
+//! ```text
+//! {"t": 1.5, "turn_deg": 10, "speed": 1.2, "extension_deg": 0, "intent": "walk"}
+//! ```
+//!
+//! `t` is the time since the start (s) and must not decrease; a request without it is due at once. At least one of the other
+//! keys is required. Empty lines are skipped.
+
+use interface::{GaitChange, Intent, Request, Source};
+use std::time::Duration;
+
+use runtime::Rate;
+use serde::{Deserialize, Deserializer};
+
+/// A line of a script: a request and its time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimedRequest {
+    /// Time since the start; `None` is at once.
+    pub time: Option<Duration>,
+    /// The request; its sender sets the tick before which it must not take effect.
+    pub request: Request,
+}
+
+/// Reads a script line by line.
+#[derive(Clone, Debug)]
+pub struct Reader {
+    name: String,
+    line: u64,
+    time: f64,
+}
+
+/// A line of a script that is no request.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{name}:{line}: {problem}")]
+pub struct ScriptError {
+    /// The file's name.
+    pub name: String,
+    /// Number of the line, from 1.
+    pub line: u64,
+    /// What is wrong, and what would be valid.
+    pub problem: String,
+}
+
+/// A line as it is written.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Line {
+    t: Option<f64>,
+    turn_deg: Option<f64>,
+    speed: Option<f64>,
+    extension_deg: Option<f64>,
+    #[serde(default, deserialize_with = "intent")]
+    intent: Option<Intent>,
+}
+
+const EXAMPLE: &str = r#"write e.g. {"t":1.5,"turn_deg":10,"speed":1.2,"extension_deg":0,"intent":"walk"}"#;
+/// Latest time (s): longer than anyone walks, so that a later one is a mistake of unit.
+const TIME_MAX: f64 = 1e6;
+
+impl Reader {
+    /// A reader before the first line of a file with this name.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self { name: name.into(), line: 0, time: 0.0 }
+    }
+
+    /// The number of the last line that was read, from 1.
+    pub fn line(&self) -> u64 {
+        self.line
+    }
+
+    /// Reads the next line; `None` if it is empty.
+    ///
+    /// # Errors
+    /// The line is no request. The next line can be read all the same.
+    pub fn read(&mut self, text: &str) -> Option<Result<TimedRequest, ScriptError>> {
+        self.line += 1;
+        let text = text.trim();
+        let problem = |problem| ScriptError { name: self.name.clone(), line: self.line, problem };
+        (!text.is_empty()).then(|| timed_request(text, &mut self.time).map_err(problem))
+    }
+
+    /// Reads a whole script.
+    ///
+    /// # Errors
+    /// Every line that is no request.
+    pub fn read_all(name: impl Into<String>, text: &str) -> Result<Vec<TimedRequest>, Vec<ScriptError>> {
+        let mut reader = Self::new(name);
+        let (mut steps, mut errors) = (Vec::new(), Vec::new());
+        for line in text.lines().filter_map(|line| reader.read(line)) {
+            match line {
+                Ok(step) => steps.push(step),
+                Err(error) => errors.push(error),
+            }
+        }
+        if errors.is_empty() { Ok(steps) } else { Err(errors) }
+    }
+}
+
+impl TimedRequest {
+    /// The tick at which the request is due if the script starts at tick 0; 0 is at once.
+    pub fn tick(&self, rate: Rate) -> u64 {
+        self.time.map_or(0, |time| rate.ticks(time))
+    }
+}
+
+/// Reads a line; `last` is the time of the previous line.
+fn timed_request(text: &str, last: &mut f64) -> Result<TimedRequest, String> {
+    // serde would accept an array as well, which nobody could read.
+    if !text.starts_with('{') {
+        return Err(format!("not a JSON object; {EXAMPLE}"));
+    }
+    let line: Line = serde_json::from_str(text).map_err(|error| {
+        let (text, column) = (error.to_string(), error.column());
+        let text = text.split(" at line ").next().unwrap_or_default();
+        format!("{text} (column {column}); {EXAMPLE}")
+    })?;
+    let Line { t, turn_deg, speed, extension_deg, intent } = line;
+    if turn_deg.or(speed).or(extension_deg).is_none() && intent.is_none() {
+        return Err(format!("no command in this line; {EXAMPLE}"));
+    }
+    if let Some(t) = t {
+        if !(0.0..=TIME_MAX).contains(&t) {
+            return Err(format!("t = {t}: must be seconds since the beginning, at least 0 and at most {TIME_MAX}"));
+        }
+        if t < *last {
+            return Err(format!("t = {t}: must not be less than {last}, the time of an earlier line"));
+        }
+        *last = t;
+    }
+    let request = Request {
+        intent,
+        gait: GaitChange { turn: turn_deg.map(f64::to_radians), speed, extension: extension_deg.map(f64::to_radians) },
+        ..Request::new(Source::Script)
+    };
+    Ok(TimedRequest { time: t.map(Duration::from_secs_f64), request })
+}
+
+fn intent<'d, D: Deserializer<'d>>(deserializer: D) -> Result<Option<Intent>, D::Error> {
+    let Some(word) = Option::<String>::deserialize(deserializer)? else { return Ok(None) };
+    let known = Intent::ALL.iter().find(|intent| intent.text() == word);
+    known.copied().map(Some).ok_or_else(|| {
+        let words: Vec<_> = Intent::ALL.iter().map(|intent| format!("\"{intent}\"")).collect();
+        serde::de::Error::custom(format!("intent = \"{word}\": must be one of {}", words.join(", ")))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn problem(line: &str) -> String {
+        Reader::new("f").read(line).expect("a line").expect_err("it is wrong").to_string()
+    }
+
+    #[test]
+    fn script_line_is_read_in_degrees_and_seconds() {
+        let step = Reader::new("f").read(r#"{"t":1.5,"turn_deg":180,"speed":1.2,"intent":"stop"}"#).unwrap().unwrap();
+        assert_eq!(step.tick(Rate::clamped(1000)), 1500);
+        assert_eq!(step.request.gait.turn, Some(std::f64::consts::PI));
+        assert_eq!((step.request.gait.speed, step.request.gait.extension), (Some(1.2), None));
+        assert_eq!(step.request.intent, Some(Intent::Stop));
+    }
+
+    #[test]
+    fn script_errors_name_line_and_remedy() {
+        let text = problem(r#"{"t":1,"trun_deg":5}"#);
+        assert!(text.starts_with("f:1: unknown field `trun_deg`, expected one of `t`, `turn_deg`, `speed`"), "{text}");
+        assert!(problem("[1, 2]").starts_with("f:1: not a JSON object; write e.g. {"));
+        assert!(problem(r#"{"t":1}"#).starts_with("f:1: no command in this line"));
+        assert!(problem(r#"{"t":-1,"speed":1}"#).starts_with("f:1: t = -1: must be"));
+        assert!(problem(r#"{"speed":1e999}"#).starts_with("f:1: number out of range"));
+        assert!(problem(r#"{"intent":"fly"}"#).contains("intent = \"fly\": must be one of \"walk\", \"stop\""));
+        assert!(problem(r#"{"speed":1"#).starts_with("f:1: EOF while parsing an object"));
+    }
+
+    #[test]
+    fn script_times_must_not_decrease_and_errors_have_line_numbers() {
+        let script = "{\"t\":2,\"speed\":1}\n\n{\"t\":1,\"speed\":1}\nnonsense\n{\"speed\":1}\n";
+        let errors = Reader::read_all("f", script).unwrap_err();
+        assert_eq!(errors.iter().map(|error| error.line).collect::<Vec<_>>(), [3, 4]);
+        assert_eq!(errors[0].to_string(), "f:3: t = 1: must not be less than 2, the time of an earlier line");
+    }
+}

@@ -1,0 +1,43 @@
+//! The execution of a plan: what is played and sensed at present. It stays when another plan takes over.
+
+use nalgebra::Vector2;
+
+use crate::ground_slope_estimator::GroundSlopeEstimator;
+use crate::knot::Knot;
+use crate::playback::Playback;
+use crate::proportions::Proportions;
+use crate::swing_clearance::SwingClearance;
+
+/// What is played and sensed at present.
+#[derive(Clone, Copy, Debug)]
+pub struct Execution {
+    /// The present among the planned knots.
+    pub playback: Playback,
+    /// The slope of the ground.
+    pub slope: GroundSlopeEstimator,
+    /// Additional height of the swing sole.
+    pub clearance: SwingClearance,
+    /// Tilt of the body beyond the plan, about x and y of the newest knot's support coordinates (rad).
+    pub tilt: Vector2<f64>,
+    /// Knots since the last step adjustment.
+    pub knots_since_adjustment: u32,
+}
+
+impl Execution {
+    /// At the second of four knots, upright on level ground.
+    pub fn new(proportions: &Proportions, knots: [Knot; 4]) -> Self {
+        Self {
+            playback: Playback::new(knots),
+            slope: GroundSlopeEstimator::new(proportions),
+            clearance: SwingClearance::default(),
+            tilt: Vector2::zeros(),
+            knots_since_adjustment: 0,
+        }
+    }
+
+    /// Expresses tilt and clearance in support coordinates of the other foot, which supports from the newest knot on.
+    pub fn change_support(&mut self) {
+        self.clearance.change_support();
+        self.tilt.x = -self.tilt.x;
+    }
+}

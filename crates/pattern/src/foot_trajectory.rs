@@ -1,0 +1,151 @@
+//! The foot trajectory: what the half-steps demand of the body at a knot, apart from the centre of mass.
+
+use dynamics::{Kinematics, Leg, UpperBody, atan2};
+use model::{Joint, JointVector, Mechanism, Side};
+use nalgebra::{Vector2, Vector3};
+
+use crate::footprint::SolePose;
+use crate::footstep_plan::{FootstepEvent, FootstepPlan};
+use crate::hip_height::HipHeight;
+use crate::knot::KNOT;
+use crate::pattern_model::PatternModel;
+use crate::step_adjustment::StepAdjustment;
+use crate::swing_path::SwingPath;
+use crate::whole_body_ik::WholeBodyTask;
+
+/// The footsteps at a knot, with the paths of the swing sole and of the hip height between them.
+#[derive(Clone, Debug)]
+pub struct FootTrajectory {
+    /// Which half-steps come and where they put the feet.
+    pub footsteps: FootstepPlan,
+    swing: SwingPath,
+    adjustment: StepAdjustment,
+    hips: HipHeight,
+}
+
+const PELVIS: Joint = Leg(Side::Right).end();
+
+impl FootTrajectory {
+    /// The trajectory from the present knot of a footstep plan.
+    pub fn new(model: &PatternModel, footsteps: FootstepPlan) -> Self {
+        Self {
+            swing: swing_path(model, &footsteps),
+            adjustment: StepAdjustment::default(),
+            hips: HipHeight::new(model, &footsteps.walk),
+            footsteps,
+        }
+    }
+
+    /// Advances by a knot. Returns whether the support foot changed.
+    pub fn advance(&mut self, model: &PatternModel) -> bool {
+        let Self { footsteps, swing, adjustment, hips } = self;
+        let event = footsteps.advance(model);
+        if event != FootstepEvent::None {
+            *swing = swing_path(model, footsteps);
+            *adjustment = StepAdjustment::default();
+        }
+        if event == FootstepEvent::SupportChange {
+            let walk = &footsteps.walk;
+            let speed = walk.speed().target().min(walk.speed().state().value);
+            let half_duration = 0.5 * walk.table().duration / speed / model.lipm_residual.height_over_gravity.sqrt();
+            let swing_sole = |progress| swing.at(progress, &footsteps.swing_sole(model, progress));
+            hips.begin_half_step(half_duration, swing_sole);
+        }
+        if footsteps.gait_state.is_standing() {
+            hips.crouch(&footsteps.feet.lift_off, footsteps.gait_state.weight_shift_progress());
+        }
+        event == FootstepEvent::SupportChange
+    }
+
+    /// Lands the swing foot off its planned place, as far as feet and legs allow. Returns whether that changed
+    /// anything; late in a half-step or before a stand nothing changes.
+    ///
+    /// * `offset` – from the planned place, in support coordinates (m)
+    pub fn adjust_step(&mut self, model: &PatternModel, offset: Vector2<f64>) -> bool {
+        if !self.is_worth_adjusting(model, offset) {
+            return false;
+        }
+        let offset = self.within_reach(model, offset);
+        let landing = self.unadjusted_landing() + offset;
+        let position = &mut self.footsteps.feet.landing.position;
+        (position.x, position.y) = (landing.x, landing.y);
+        self.adjustment.retarget(self.footsteps.walk.half_step().progress, offset);
+        true
+    }
+
+    /// Whether [`adjust_step`](Self::adjust_step) would change anything.
+    pub fn is_worth_adjusting(&self, model: &PatternModel, offset: Vector2<f64>) -> bool {
+        let change = (self.within_reach(model, offset) - self.adjustment.target()).amax();
+        change > model.proportions.step_adjustment_change_min
+            && self.footsteps.gait_state.is_stepping()
+            && StepAdjustment::is_in_time(self.footsteps.walk.half_step().progress)
+    }
+
+    /// Where the swing foot would land without adjustment (m).
+    fn unadjusted_landing(&self) -> Vector2<f64> {
+        self.footsteps.feet.landing.position.xy() - self.adjustment.target()
+    }
+
+    /// The adjustment next to `offset` that keeps the soles apart and the legs within reach (m).
+    fn within_reach(&self, model: &PatternModel, offset: Vector2<f64>) -> Vector2<f64> {
+        let max = model.proportions.step_adjustment_max;
+        let inward = (model.proportions.sole_spacing_min - self.unadjusted_landing().y).min(0.0);
+        Vector2::new(offset.x.clamp(-max.x, max.x), offset.y.clamp(inward, max.y))
+    }
+
+    /// How many knots are left of the half-step at the present speed.
+    pub fn knots_left(&self) -> f64 {
+        let left = (1.0 - self.footsteps.walk.half_step().progress) * self.footsteps.walk.table().duration;
+        left / self.footsteps.walk.speed().state().value / KNOT
+    }
+
+    /// The task of the whole body at this knot.
+    ///
+    /// * `com` – projection of the centre of mass in the walk frame (m)
+    pub fn task(&self, model: &PatternModel, com: Vector2<f64>) -> WholeBodyTask {
+        let walk = &self.footsteps.walk;
+        let progress = walk.half_step().progress;
+        let nominal = walk.table().angles_at(progress);
+        let modified = nominal + walk.offsets_at(progress);
+        let modified = Kinematics::fixed_base_up_to(&model.tree, &modified, Mechanism::foot(Side::Left));
+        let pelvis_ahead = modified.rotation[PELVIS].column(0).into_owned();
+        let mut swing_sole = self.swing.at(progress, &SolePose::of_swing_foot(&model.mechanism, &modified));
+        let [offset, ..] = self.adjustment.at(progress);
+        swing_sole.position += Vector3::new(offset.x, offset.y, 0.0);
+        WholeBodyTask {
+            com: self.footsteps.feet.footprint.point_to_support(com),
+            hip_height: Kinematics::fixed_base_up_to(&model.tree, &nominal, PELVIS).origin[PELVIS].z
+                - self.hips.lowered(progress),
+            pelvis_yaw: atan2(pelvis_ahead.y, pelvis_ahead.x),
+            swing_sole,
+            upper: nominal,
+            carried: UpperBody::new(&model.tree, &nominal),
+        }
+    }
+
+    /// Expresses angles of support coordinates in physical joints.
+    pub fn to_physical(&self, model: &PatternModel, in_support: &JointVector) -> JointVector {
+        model.mirror.to_physical(self.footsteps.feet.footprint.side, in_support)
+    }
+
+    /// Expresses angles of physical joints in support coordinates.
+    pub fn to_support(&self, model: &PatternModel, physical: &JointVector) -> JointVector {
+        model.mirror.to_support(self.footsteps.feet.footprint.side, physical)
+    }
+
+    /// Half-steps since the beginning of the walk, with the progress through the present one as fraction.
+    pub fn phase(&self) -> f64 {
+        let half_step = self.footsteps.walk.half_step();
+        half_step.index as f64 + half_step.progress
+    }
+
+    /// The speed factor, 0 in a stand.
+    pub fn speed(&self) -> f64 {
+        if self.footsteps.gait_state.is_standing() { 0.0 } else { self.footsteps.walk.speed().state().value }
+    }
+}
+
+fn swing_path(model: &PatternModel, footsteps: &FootstepPlan) -> SwingPath {
+    let modified = |progress| footsteps.swing_sole(model, progress);
+    SwingPath::new(&footsteps.feet.lift_off, &footsteps.feet.landing, modified)
+}

@@ -1,0 +1,117 @@
+//! Poses of the feet: soles in support coordinates, footprints in the walk frame.
+
+use dynamics::{Kinematics, atan2, sin_cos};
+use model::{Mechanism, Side};
+use nalgebra::{Isometry2, Isometry3, Quaternion, Rotation2, Translation3, UnitQuaternion, Vector2, Vector3};
+
+/// The pose of a level sole, in support coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolePose {
+    /// The point under the ankle (m).
+    pub position: Vector3<f64>,
+    /// Heading against the support foot (rad).
+    pub yaw: f64,
+}
+
+/// The support foot in the walk frame, which has its origin where the walk began, x ahead.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Footprint {
+    /// Maps coordinates of the foot to the walk frame.
+    pub foot_to_walk: Isometry2<f64>,
+    /// Which foot.
+    pub side: Side,
+}
+
+impl SolePose {
+    /// The swing sole in a posture, without its tilt.
+    pub fn of_swing_foot(mechanism: &Mechanism, kinematics: &Kinematics) -> Self {
+        let sole = kinematics.sole_to_world(mechanism, Side::Left);
+        let ahead = sole.rotation * Vector3::x();
+        Self { position: sole.translation.vector, yaw: atan2(ahead.y, ahead.x) }
+    }
+
+    /// The former support sole in the support coordinates of this one, once this one has landed and supports.
+    pub fn former_support(&self) -> Self {
+        let back = Rotation2::new(-self.yaw) * -self.position.xy();
+        Self { position: Vector3::new(back.x, -back.y, 0.0), yaw: self.yaw }
+    }
+
+    /// Maps sole coordinates to support coordinates.
+    pub fn to_support(self) -> Isometry3<f64> {
+        Isometry3::from_parts(Translation3::from(self.position), rotation_about_z(self.yaw))
+    }
+}
+
+impl Footprint {
+    /// The first support foot, at the origin of the walk frame.
+    pub fn first(side: Side) -> Self {
+        Self { foot_to_walk: Isometry2::identity(), side }
+    }
+
+    /// The next support foot, once it has landed.
+    ///
+    /// * `landed` – its pose in support coordinates of this one
+    pub fn next(&self, landed: &SolePose) -> Self {
+        let step = Isometry2::new(self.mirrored(landed.position.xy()), self.side.lateral_sign() * landed.yaw);
+        Self { foot_to_walk: self.foot_to_walk * step, side: self.side.other() }
+    }
+
+    /// Expresses a point of support coordinates in the walk frame.
+    pub fn point_to_walk(&self, point: Vector2<f64>) -> Vector2<f64> {
+        self.foot_to_walk.translation.vector + self.direction_to_walk(point)
+    }
+
+    /// Expresses a direction of support coordinates in the walk frame.
+    pub fn direction_to_walk(&self, direction: Vector2<f64>) -> Vector2<f64> {
+        self.foot_to_walk.rotation * self.mirrored(direction)
+    }
+
+    /// Expresses a point of the walk frame in support coordinates.
+    pub fn point_to_support(&self, point: Vector2<f64>) -> Vector2<f64> {
+        self.mirrored(self.foot_to_walk.rotation.inverse() * (point - self.foot_to_walk.translation.vector))
+    }
+
+    /// Expresses a direction of the walk frame in support coordinates.
+    pub fn direction_to_support(&self, direction: Vector2<f64>) -> Vector2<f64> {
+        self.mirrored(self.foot_to_walk.rotation.inverse() * direction)
+    }
+
+    /// Between support coordinates and those of the physical foot, either way.
+    fn mirrored(&self, vector: Vector2<f64>) -> Vector2<f64> {
+        Vector2::new(vector.x, self.side.lateral_sign() * vector.y)
+    }
+}
+
+/// A rotation about the vertical. It calls no mathematical library of the system, which would round differently
+/// elsewhere.
+pub fn rotation_about_z(angle: f64) -> UnitQuaternion<f64> {
+    let (sin, cos) = sin_cos(angle / 2.0);
+    UnitQuaternion::new_unchecked(Quaternion::new(cos, 0.0, 0.0, sin))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn walk_and_support_coordinates_are_inverse() {
+        let foot_to_walk = Isometry2::new(Vector2::new(1.0, 2.0), 0.7);
+        let foot = Footprint { foot_to_walk, side: Side::Left };
+        let point = Vector2::new(0.3, -0.2);
+        assert!((foot.point_to_support(foot.point_to_walk(point)) - point).norm() < 1e-15);
+    }
+
+    #[test]
+    fn former_support_foot_is_where_the_old_footprint_was() {
+        for side in Side::BOTH {
+            let first = Footprint { foot_to_walk: Isometry2::new(Vector2::new(1.0, 2.0), 0.4), side };
+            let landed = SolePose { position: Vector3::new(0.3, 0.2, 0.0), yaw: 0.25 };
+            let second = first.next(&landed);
+            let behind = second.point_to_walk(landed.former_support().position.xy());
+            assert!((behind - first.foot_to_walk.translation.vector).norm() < 1e-15);
+            assert_eq!(second.next(&landed.former_support()).side, side);
+            let back = second.next(&landed.former_support()).foot_to_walk;
+            assert!((back.rotation.angle() - 0.4).abs() < 1e-15, "{}", back.rotation.angle());
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! The footstep plan: which half-steps come and where they put the feet.
+
+use dynamics::Kinematics;
+use gait::{Admission, Walk};
+use interface::{Command, GaitChange, Verdict};
+use model::{Joint, Mechanism, Side};
+use nalgebra::{Vector2, Vector3};
+
+use crate::footprint::{Footprint, SolePose, rotation_about_z};
+use crate::gait_state::{GaitState, Goal, Stance};
+use crate::pattern_model::PatternModel;
+
+/// The commanded walk at a knot, with its footsteps. A copy advanced knot by knot gives the footsteps that come.
+#[derive(Clone, Debug)]
+pub struct FootstepPlan {
+    /// The commanded walk.
+    pub walk: Walk,
+    /// Whether the robot walks, stops, stands or starts.
+    pub gait_state: GaitState,
+    /// The feet of the present half-step.
+    pub feet: Feet,
+    /// The command in force while the gait state is `Walking`; before a stand the walk is calmer.
+    command: Command,
+}
+
+/// What happens to the footsteps at a knot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FootstepEvent {
+    /// Nothing.
+    None,
+    /// The swing foot has landed and becomes the support foot.
+    SupportChange,
+    /// The first half-step after a stand begins: the support foot carries all the weight.
+    LiftOff,
+}
+
+/// The feet of a half-step.
+#[derive(Clone, Copy, Debug)]
+pub struct Feet {
+    /// The support foot, in the walk frame.
+    pub footprint: Footprint,
+    /// The other foot before it swings, in support coordinates.
+    pub lift_off: SolePose,
+    /// The other foot after it has swung, in support coordinates.
+    pub landing: SolePose,
+}
+
+impl FootstepPlan {
+    /// A walk at the very beginning of its first half-step.
+    pub fn walking(model: &PatternModel, walk: Walk) -> Self {
+        let kinematics = Kinematics::fixed_base(&model.tree, &walk.motion().angles);
+        let lift_off = SolePose::of_swing_foot(&model.mechanism, &kinematics);
+        let footprint = Footprint::first(walk.half_step().support);
+        let command = walk.command();
+        let feet = Feet { footprint, lift_off, landing: lift_off };
+        let mut plan = Self { walk, gait_state: GaitState::Walking, feet, command };
+        plan.feet.landing = plan.landing(model);
+        plan
+    }
+
+    /// A stand with the feet side by side, from which the walk can be started.
+    pub fn standing(model: &PatternModel, walk: Walk) -> Self {
+        let parallel = beside_support(model, 0.0);
+        let footprint = Footprint::first(walk.half_step().support);
+        let feet = Feet { footprint, lift_off: parallel, landing: parallel };
+        let gait_state = GaitState::Standing(Stance::Parallel);
+        let mut plan = Self { command: walk.command(), walk, gait_state, feet };
+        plan.walk.force(&Command::NOMINAL);
+        plan.feet.landing = plan.landing(model);
+        plan
+    }
+
+    /// The command in force, or in force once the robot walks.
+    pub fn command(&self) -> Command {
+        self.command
+    }
+
+    /// Puts in force what the limits of the gait grant of a request. See [`Walk::admit`].
+    pub fn admit(&mut self, request: &GaitChange) -> Admission {
+        let mut admission = self.walk.grant(request, self.command);
+        if admission.verdict != Verdict::Refused {
+            self.command = admission.granted;
+            if let Some(effect_half_step) = self.apply_command() {
+                admission.effect_half_step = effect_half_step;
+            }
+        }
+        admission
+    }
+
+    /// Commands a walk, steps in place or a stand.
+    pub fn set_goal(&mut self, goal: Goal) {
+        self.gait_state.set_goal(goal);
+        if matches!(self.gait_state, GaitState::Stopping { .. }) {
+            let Command { speed, extension, .. } = self.walk.command();
+            self.walk.force(&Command { turn: 0.0, speed: speed.min(1.0), extension: extension.min(0.0) });
+        } else {
+            self.apply_command();
+        }
+    }
+
+    /// Lets the walk follow the command as far as the gait state allows: in place without extension and no faster than
+    /// the nominal, not at all around a stand. Returns the half-step from which on it does, see [`Walk::force`].
+    fn apply_command(&mut self) -> Option<u64> {
+        let Command { turn, speed, .. } = self.command;
+        match self.gait_state {
+            GaitState::Walking => Some(self.walk.force(&self.command)),
+            GaitState::InPlace { .. } => {
+                Some(self.walk.force(&Command { turn, speed: speed.min(1.0), extension: 0.0 }))
+            }
+            GaitState::Stopping { .. } | GaitState::Standing(_) | GaitState::Starting { .. } => None,
+        }
+    }
+
+    /// Advances by a knot.
+    pub fn advance(&mut self, model: &PatternModel) -> FootstepEvent {
+        let was_standing = self.gait_state.is_standing();
+        let begins = self.gait_state.advance(&mut self.walk);
+        if begins {
+            self.feet.lift_off = self.feet.landing.former_support();
+            self.feet.footprint = self.feet.footprint.next(&self.feet.landing);
+            self.feet.landing = self.landing(model);
+            FootstepEvent::SupportChange
+        } else if was_standing && !self.gait_state.is_standing() {
+            self.apply_command();
+            self.feet.landing = self.landing(model);
+            FootstepEvent::LiftOff
+        } else {
+            FootstepEvent::None
+        }
+    }
+
+    /// The predicted ZMP of the whole body less that of the cart-table model, in support coordinates (m); zero in a
+    /// stand.
+    pub fn lipm_residual(&self, model: &PatternModel) -> Vector2<f64> {
+        if self.gait_state.is_standing() {
+            return Vector2::zeros();
+        }
+        model.lipm_residual.at(self.walk.half_step().progress, self.walk.speed().state().value)
+    }
+
+    /// Where the swing sole of the present half-step lands.
+    fn landing(&self, model: &PatternModel) -> SolePose {
+        let mut landing = self.swing_sole(model, 1.0);
+        landing.position.z = 0.0;
+        match self.gait_state {
+            GaitState::Stopping { half_steps: 1, stance: Stance::Parallel, .. } => beside_support(model, 0.0),
+            GaitState::InPlace { half_steps: 0 } => beside_support(model, landing.yaw),
+            _ => landing,
+        }
+    }
+
+    /// The swing sole of the modified half-step at a progress.
+    pub fn swing_sole(&self, model: &PatternModel, progress: f64) -> SolePose {
+        let angles = self.walk.angles_at(progress);
+        let kinematics = Kinematics::fixed_base_up_to(&model.tree, &angles, Mechanism::foot(Side::Left));
+        SolePose::of_swing_foot(&model.mechanism, &kinematics)
+    }
+}
+
+/// The other sole beside the support sole, both turned apart from the heading of the hips by half of `yaw` (rad).
+fn beside_support(model: &PatternModel, yaw: f64) -> SolePose {
+    let width = model.mechanism.links[Joint::LeftHipRoll].origin.y;
+    SolePose { position: rotation_about_z(yaw / 2.0) * Vector3::new(0.0, width, 0.0), yaw }
+}

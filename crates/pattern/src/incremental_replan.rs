@@ -1,0 +1,135 @@
+//! Incremental replanning: a change that the loop itself makes, a stop or a step after a push, is planned over several
+//! ticks, so that none of them takes long, and takes over at a coming knot.
+
+use nalgebra::Vector2;
+
+use crate::dynamics_filter::DynamicsFilter;
+use crate::foot_trajectory::FootTrajectory;
+use crate::gait_state::Goal;
+use crate::knot::KNOT;
+use crate::pattern_model::PatternModel;
+
+/// A plan in the making.
+#[derive(Clone, Debug)]
+pub struct IncrementalReplan {
+    change: PlanChange,
+    /// Knots until it takes over; 0 when no plan is in the making.
+    knots_left: u32,
+    /// The feet at the knot where it takes over.
+    foot_trajectory: FootTrajectory,
+    /// The knots that follow.
+    dynamics_filter: DynamicsFilter,
+}
+
+/// A change of the plan.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PlanChange {
+    /// The gait to change to.
+    pub goal: Option<Goal>,
+    /// Offset of the landing of the swing foot, in support coordinates (m).
+    pub step_offset: Option<Vector2<f64>>,
+}
+
+impl PlanChange {
+    /// Makes the change. Returns whether anything is different.
+    pub fn apply(&self, model: &PatternModel, feet: &mut FootTrajectory) -> bool {
+        let before = feet.footsteps.gait_state;
+        if let Some(goal) = self.goal {
+            feet.footsteps.set_goal(goal);
+        }
+        let is_adjusted = self.step_offset.is_some_and(|offset| feet.adjust_step(model, offset));
+        is_adjusted || feet.footsteps.gait_state != before
+    }
+}
+
+impl IncrementalReplan {
+    /// No plan in the making.
+    pub fn idle(feet: &FootTrajectory, filter: &DynamicsFilter) -> Self {
+        Self {
+            change: PlanChange::default(),
+            knots_left: 0,
+            foot_trajectory: feet.clone(),
+            dynamics_filter: filter.clone(),
+        }
+    }
+
+    /// Begins to plan a change, and with it the change in the making, if there is one. Returns whether anything is to
+    /// change.
+    ///
+    /// * `feet`, `filter` – the present plan
+    /// * `elapsed` – time since the present knot (s)
+    pub fn begin(
+        &mut self,
+        model: &PatternModel,
+        feet: &FootTrajectory,
+        filter: &DynamicsFilter,
+        change: PlanChange,
+        elapsed: f64,
+    ) -> bool {
+        self.change = PlanChange {
+            goal: change.goal.or(self.change.goal),
+            step_offset: change.step_offset.or(self.change.step_offset),
+        };
+        self.foot_trajectory.clone_from(feet);
+        self.dynamics_filter.clone_from(filter);
+        // Half a knot suffices to plan all of it.
+        let knots = if elapsed > KNOT / 2.0 { 2 } else { 1 };
+        for _ in 0..knots {
+            if self.foot_trajectory.advance(model) {
+                // The foot has landed meanwhile.
+                self.change.step_offset = None;
+            }
+            self.dynamics_filter.advance();
+        }
+        if !self.change.apply(model, &mut self.foot_trajectory) {
+            self.cancel();
+            return false;
+        }
+        self.dynamics_filter.restart(model, &self.foot_trajectory);
+        self.knots_left = knots;
+        true
+    }
+
+    /// Plans a part of it.
+    ///
+    /// * `elapsed` – time since the present knot (s)
+    /// * `dt` – the part of it that passed since the last call (s)
+    pub fn work(&mut self, model: &PatternModel, elapsed: f64, dt: f64) {
+        if self.knots_left == 0 {
+            return;
+        }
+        let until = f64::from(self.knots_left) * KNOT - (elapsed - dt);
+        let missing = self.dynamics_filter.missing();
+        let share = (missing as f64 * dt / until).ceil() as usize;
+        for _ in 0..share.min(missing) {
+            self.dynamics_filter.extend(model);
+        }
+    }
+
+    /// Counts a knot that has passed. Returns the plan that takes over at this knot, if one does.
+    pub fn pass_knot(&mut self, model: &PatternModel) -> Option<(&FootTrajectory, &DynamicsFilter)> {
+        self.knots_left = self.knots_left.checked_sub(1)?;
+        if self.knots_left > 0 {
+            return None;
+        }
+        self.change = PlanChange::default();
+        self.dynamics_filter.complete(model);
+        Some((&self.foot_trajectory, &self.dynamics_filter))
+    }
+
+    /// The change in the making.
+    pub fn change(&self) -> PlanChange {
+        self.change
+    }
+
+    /// Drops the goal of the change in the making: another one is commanded.
+    pub fn forget_goal(&mut self) {
+        self.change.goal = None;
+    }
+
+    /// Ends it and returns the change that it was to make.
+    pub fn cancel(&mut self) -> PlanChange {
+        self.knots_left = 0;
+        std::mem::take(&mut self.change)
+    }
+}

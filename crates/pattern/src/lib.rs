@@ -1,0 +1,61 @@
+//! Walking-pattern generator: plans the centre of mass over the feet of the coming half-steps, and the joints that
+//! realise it (Kajita et al. 2003).
+//!
+//! The data flow in this order; each stage has a file of its own:
+//!
+//! 1. `gait_state`: whether the robot walks, steps in place, starts, stops or stands.
+//! 2. `footstep_plan`: which half-steps come and where they put the feet.
+//! 3. `zmp_reference`: the reference of the zero-moment point (ZMP) over the coming 1.8 s.
+//! 4. `preview_controller`: the centre of mass of the cart-table model that tracks this reference.
+//! 5. `foot_trajectory`: swing sole, pelvis and hip height (`swing_path`, `step_adjustment`, `hip_height`).
+//! 6. `whole_body_ik`: the joint angles that realise feet and centre of mass.
+//! 7. `dynamics_filter`: corrects the centre of mass by the dynamics of the whole body over the coming second.
+//! 8. `playback`: interpolates the planned knots.
+//!
+//! [`PatternGenerator`] owns a `plan`, which another one can replace as a whole, and its `execution`, which cannot.
+//! [`FeasibilityCheck`] plays a copy ahead and checks it against the limits of the robot.
+//!
+//! Vocabulary:
+//! * **walk frame**: on the floor, origin and heading where the walk began.
+//! * **knot**: an instant at which the motion is planned, every [`KNOT`] seconds; between knots joints are
+//!   interpolated.
+//! * **newest knot**: the last planned one. It lies one to two knots after the present, so that the present has planned
+//!   neighbours on both sides.
+
+mod dynamics_filter;
+mod execution;
+mod feasibility;
+mod foot_trajectory;
+mod footprint;
+mod footstep_plan;
+mod gait;
+mod gait_phase;
+mod gait_state;
+mod ground_slope_estimator;
+mod hip_height;
+mod incremental_replan;
+mod knot;
+mod lipm_residual;
+mod pattern_generator;
+mod pattern_model;
+mod plan;
+mod playback;
+mod preview_controller;
+mod proportions;
+mod speed_override;
+mod step_adjustment;
+mod stop_in_stride;
+mod swing_clearance;
+mod swing_path;
+mod uncompensated_gait;
+mod whole_body_ik;
+mod zmp_reference;
+
+pub use feasibility::{Feasibility, FeasibilityCheck, FeasibilityParameters, Limit, LimitViolation};
+pub use gait_phase::GaitPhase;
+pub use gait_state::{GaitState, Goal, Stance};
+pub use knot::KNOT;
+pub use pattern_generator::PatternGenerator;
+pub use uncompensated_gait::UncompensatedGait;
+
+pub use crate::gait::Gait;

@@ -1,0 +1,329 @@
+//! The walking-pattern generator: modifies the half-steps, plans the centre of mass over them, and realises both.
+
+use std::sync::Arc;
+
+use gait::{Admission, Walk};
+use interface::{Command, GaitChange, HalfStep};
+use model::{Joint, Mechanism, Motion};
+use nalgebra::Vector2;
+
+use crate::execution::Execution;
+use crate::foot_trajectory::FootTrajectory;
+use crate::footprint::Footprint;
+use crate::footstep_plan::FootstepPlan;
+use crate::gait_state::{GaitState, Goal};
+use crate::incremental_replan::PlanChange;
+use crate::knot::{KNOT, Knot};
+use crate::pattern_model::PatternModel;
+use crate::plan::Plan;
+use crate::playback::Playback;
+use crate::whole_body_ik::WholeBodyIk;
+
+/// Each step adjustment is a new plan: not more often than once in so many knots.
+const KNOTS_BETWEEN_ADJUSTMENTS: u32 = 5;
+
+/// A walk whose centre of mass is planned over the coming footsteps. It takes the place of the plain [`Walk`].
+#[derive(Clone, Debug)]
+pub struct PatternGenerator {
+    model: Arc<PatternModel>,
+    plan: Plan,
+    execution: Execution,
+}
+
+impl PatternGenerator {
+    /// A walk in stride, at the very beginning of its first half-step.
+    pub fn walking(mechanism: &Mechanism, walk: Walk) -> Self {
+        let model = PatternModel::new(mechanism, walk.mirror(), walk.table());
+        let motion = walk.motion();
+        let feet = FootTrajectory::new(&model, FootstepPlan::walking(&model, walk));
+        Self::begin(model, feet, &motion)
+    }
+
+    /// A stand with the feet side by side, from which a walk can be started.
+    pub fn standing(mechanism: &Mechanism, walk: Walk) -> Self {
+        let model = PatternModel::new(mechanism, walk.mirror(), walk.table());
+        let nominal = walk.motion().angles;
+        let feet = FootTrajectory::new(&model, FootstepPlan::standing(&model, walk));
+        let footprint = &feet.footsteps.feet;
+        let middle = footprint.footprint.point_to_walk(footprint.lift_off.position.xy() / 2.0);
+        let posture = WholeBodyIk::new(&model, &nominal).solve(&model, &feet.task(&model, middle));
+        Self::begin(model, feet, &Motion::at_rest(posture.unwrap_or(nominal)))
+    }
+
+    /// Begins with a motion in support coordinates.
+    fn begin(model: PatternModel, feet: FootTrajectory, motion: &Motion) -> Self {
+        let knot = Knot {
+            angles: feet.to_physical(&model, &motion.angles),
+            footprint: feet.footsteps.feet.footprint,
+            phase: feet.phase(),
+            speed: feet.speed(),
+            vertical: Vector2::zeros(),
+            support_weight_share: feet.footsteps.gait_state.support_weight_share(),
+        };
+        // The second knot is the beginning; before it the motion was as it continues.
+        let before = Knot {
+            angles: feet.to_physical(&model, &(motion.angles - motion.rates * KNOT)),
+            phase: knot.phase - knot.speed * KNOT / feet.footsteps.walk.table().duration,
+            ..knot
+        };
+        let mut generator = Self {
+            plan: Plan::new(&model, feet, motion),
+            execution: Execution::new(&model.proportions, [knot; 4]),
+            model: Arc::new(model),
+        };
+        generator.plan_knot();
+        let next = *generator.execution.playback.newest();
+        generator.plan_knot();
+        let newest = *generator.execution.playback.newest();
+        generator.execution.playback = Playback::new([before, knot, next, newest]);
+        generator
+    }
+
+    /// Takes over the plan of `other`, a copy of this one whose plan was changed at the same
+    /// [`revision`](Self::revision). Does not allocate.
+    pub fn adopt(&mut self, other: &Self) {
+        self.plan.clone_from(&other.plan);
+        self.execution.playback.end_override_with_plan(self.plan.command().speed);
+    }
+
+    /// A number that differs whenever the plan does: the plan of a copy is still that of the original while both have
+    /// the same revision.
+    pub fn revision(&self) -> u64 {
+        self.plan.revision()
+    }
+
+    /// Plays the speed of a request from now on, if the robot walks. A plan for it must [follow](Self::adopt), or
+    /// the override must be [cancelled](Self::cancel_speed_override).
+    pub fn override_speed(&mut self, request: &GaitChange) {
+        let footsteps = self.plan.footsteps();
+        let target = footsteps.walk.grant(request, footsteps.command()).granted.speed;
+        if footsteps.gait_state == GaitState::Walking && target != footsteps.walk.speed().target() {
+            self.execution.playback.override_speed(footsteps.walk.speed(), target);
+        }
+    }
+
+    /// Returns to the planned speed: no other was granted.
+    pub fn cancel_speed_override(&mut self) {
+        self.execution.playback.cancel_speed_override();
+    }
+
+    /// Puts in force what the limits of the gait grant of a request, and plans it at once. See [`Walk::admit`].
+    pub fn admit(&mut self, request: &GaitChange) -> Admission {
+        self.plan.admit(&self.model, &self.execution.playback, request)
+    }
+
+    /// Changes to another gait and plans it at once, which takes about a millisecond; see
+    /// [`set_goal_soon`](Self::set_goal_soon).
+    pub fn set_goal(&mut self, goal: Goal) {
+        self.plan.set_goal(&self.model, goal);
+    }
+
+    /// Changes to another gait within two knots. Planning is spread over the ticks until then.
+    pub fn set_goal_soon(&mut self, goal: Goal) {
+        self.replan_soon(PlanChange { goal: Some(goal), step_offset: None });
+    }
+
+    /// The state of the gait at the newest knot.
+    pub fn gait_state(&self) -> GaitState {
+        self.plan.gait_state()
+    }
+
+    /// Plans a change over the coming ticks. Returns whether there is anything to change.
+    fn replan_soon(&mut self, change: PlanChange) -> bool {
+        self.plan.replan_soon(&self.model, change, self.execution.playback.elapsed())
+    }
+
+    /// The command in force, or in force once the robot walks.
+    pub fn command(&self) -> Command {
+        self.plan.command()
+    }
+
+    /// Advances by `dt` (s), at most a nominal half-step. Returns whether a new half-step began.
+    pub fn advance(&mut self, dt: f64) -> bool {
+        let before = self.half_step().index;
+        let dt = dt.min(self.walk().table().duration).max(0.0);
+        self.execution.playback.advance(dt);
+        while self.execution.playback.passes_knot() {
+            self.plan_knot();
+        }
+        let elapsed = self.execution.playback.elapsed();
+        self.plan.work(&self.model, elapsed / KNOT, elapsed, dt);
+        self.half_step().index != before
+    }
+
+    /// The present half-step.
+    pub fn half_step(&self) -> HalfStep {
+        self.execution.playback.half_step(self.walk().half_step())
+    }
+
+    /// The present speed factor.
+    pub fn speed(&self) -> f64 {
+        self.execution.playback.speed()
+    }
+
+    /// Whether both feet carry weight at present: in a stand, and until the weight has shifted onto the first support
+    /// foot. At a support change the weight is taken to change feet at once.
+    pub fn in_double_support(&self) -> bool {
+        self.execution.playback.support_weight_share() < 1.0
+    }
+
+    /// The present motion of the physical joints.
+    pub fn physical_motion(&self) -> Motion {
+        self.execution.playback.physical_motion()
+    }
+
+    /// The present motion in support coordinates. The joints `FootRoll` and `FootPitch` are the slope of the sole.
+    pub fn motion(&self) -> Motion {
+        let mut motion = self.walk().mirror().to_support(self.half_step().support, &self.physical_motion());
+        let [vertical, rate] =
+            self.execution.playback.vertical().map(|vertical| self.footprint().direction_to_support(vertical));
+        // The rotation that brings the vertical upright.
+        (motion.angles[Joint::FootRoll], motion.angles[Joint::FootPitch]) = (vertical.y, -vertical.x);
+        (motion.rates[Joint::FootRoll], motion.rates[Joint::FootPitch]) = (rate.y, -rate.x);
+        motion
+    }
+
+    /// Growth of an error of the divergent component of motion until touchdown, `e^(ωt)`. `None` when the landing
+    /// cannot be adjusted: soon after the last adjustment, and for the last knots before a support change.
+    pub fn growth_until_touchdown(&self) -> Option<f64> {
+        let knots = self.knots_until_touchdown()?;
+        Some((1.0 + KNOT / self.model.lipm_residual.height_over_gravity.sqrt()).powi(knots as i32))
+    }
+
+    /// Adjusts the landing of the swing foot. Without effect while
+    /// [`growth_until_touchdown`](Self::growth_until_touchdown) is `None`, late in a half-step, and before a stand.
+    ///
+    /// * `error` – of the divergent component at touchdown that the ankles cannot correct, in support coordinates (m)
+    pub fn adjust_step(&mut self, error: Vector2<f64>) {
+        let change = PlanChange { goal: None, step_offset: Some(error) };
+        if self.knots_until_touchdown().is_some()
+            && self.plan.is_worth_adjusting(&self.model, error)
+            && self.replan_soon(change)
+        {
+            self.execution.knots_since_adjustment = 0;
+        }
+    }
+
+    /// Absorbs a measurement of the ground's slope.
+    ///
+    /// * `lean` – of the vertical over the support sole, in support coordinates: x and y of the unit vector (-)
+    /// * `dt` – time since the last tick (s)
+    pub fn update_ground_slope(&mut self, lean: Vector2<f64>, dt: f64) {
+        self.execution.slope.update(self.footprint().direction_to_walk(lean), dt);
+    }
+
+    /// Sets the tilt of the body beyond the plan, about x and y of support coordinates (rad).
+    pub fn set_tilt(&mut self, tilt: Vector2<f64>) {
+        // Just before a support change the newest knot has other support coordinates.
+        if self.walk().half_step().index == self.half_step().index {
+            self.execution.tilt = tilt;
+        }
+    }
+
+    /// Lean of the vertical over the floor as sensed, in support coordinates: x and y of the unit vector (-). The plan
+    /// follows slowly.
+    pub fn sensed_vertical(&self) -> Vector2<f64> {
+        self.footprint().direction_to_support(self.execution.slope.sensed())
+    }
+
+    /// Whether a leg was too short for the newest knot, so that the posture before was kept.
+    pub fn is_leg_out_of_reach(&self) -> bool {
+        self.plan.is_leg_out_of_reach()
+    }
+
+    /// The commanded walk at the newest knot.
+    pub fn walk(&self) -> &Walk {
+        self.plan.walk()
+    }
+
+    /// The robot as a tree.
+    pub fn tree(&self) -> &dynamics::Tree {
+        &self.model.tree
+    }
+
+    /// The present support foot.
+    fn footprint(&self) -> &Footprint {
+        self.execution.playback.footprint(self.half_step().support)
+    }
+
+    /// Knots until touchdown, if the landing can be adjusted.
+    fn knots_until_touchdown(&self) -> Option<f64> {
+        let is_same_half_step = self.walk().half_step().index == self.half_step().index;
+        let is_rested = self.execution.knots_since_adjustment >= KNOTS_BETWEEN_ADJUSTMENTS;
+        (is_same_half_step && is_rested).then(|| self.plan.knots_left())
+    }
+
+    /// Plans and realises one more knot.
+    fn plan_knot(&mut self) {
+        let Self { model, plan, execution } = self;
+        execution.knots_since_adjustment = execution.knots_since_adjustment.saturating_add(1);
+        if plan.advance(model) {
+            execution.change_support();
+        }
+        execution.slope.advance(KNOT);
+        let vertical = execution.slope.planned();
+        let mut task = plan.task(model, vertical);
+        execution.clearance.advance(&model.proportions, execution.tilt, task.swing_sole.position.xy(), KNOT);
+        task.swing_sole.position.z += execution.clearance.of_sole();
+        task.hip_height += execution.clearance.of_hips();
+        let knot = plan.realise(model, &task, execution.playback.newest(), vertical);
+        execution.playback.push(knot);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use config::Config;
+    use gait::{GaitParameters, Limits, NominalTable, RampKind, Start};
+
+    use super::*;
+    use crate::gait_state::Stance;
+
+    fn walking() -> PatternGenerator {
+        let config = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config");
+        let mechanism = Mechanism::load(config.join("mechanism.toml")).unwrap();
+        let table = NominalTable::read_csv(&config.join("nominal_half_step.csv")).unwrap();
+        let limits =
+            Limits { turn_max: 0.5, speed_min: 0.6, speed_max: 1.4, extension_min: -0.14, extension_max: 0.14 };
+        let gait = GaitParameters { ramp: RampKind::Quintic, speed_ramp: Duration::from_millis(600), limits };
+        let walk = Walk::new(Arc::new(table), &mechanism, &gait, Start::default()).unwrap();
+        PatternGenerator::walking(&mechanism, walk)
+    }
+
+    fn advance(generator: &mut PatternGenerator, ticks: u32) {
+        (0..ticks).for_each(|_| _ = generator.advance(1e-3));
+    }
+
+    #[test]
+    fn adopted_plan_leaves_the_present_motion_unchanged_and_is_played_from_then_on() {
+        let mut generator = walking();
+        advance(&mut generator, 1234);
+        let mut other = generator.clone();
+        other.admit(&GaitChange { turn: Some(0.2), speed: Some(1.2), extension: None });
+        let before = generator.physical_motion();
+        assert_ne!(generator.revision(), other.revision());
+        generator.adopt(&other);
+        assert_eq!(generator.physical_motion(), before);
+        assert_eq!(generator.revision(), other.revision());
+        for _ in 0..1500 {
+            advance(&mut generator, 1);
+            advance(&mut other, 1);
+            assert_eq!(generator.physical_motion(), other.physical_motion());
+        }
+        assert_eq!(generator.command().turn, 0.2);
+    }
+
+    #[test]
+    fn incremental_replan_takes_over_within_two_knots() {
+        let stand = Goal::Stand(Stance::Parallel);
+        for ticks in [700, 703, 708] {
+            let mut generator = walking();
+            advance(&mut generator, ticks);
+            generator.set_goal_soon(stand);
+            advance(&mut generator, 20);
+            assert!(matches!(generator.gait_state(), GaitState::Stopping { .. }), "after {ticks} ticks");
+        }
+    }
+}

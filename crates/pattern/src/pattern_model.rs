@@ -1,0 +1,73 @@
+//! The constants of the generator: the robot, its nominal half-step, and the gains that follow from both.
+
+use dynamics::{Kinematics, Leg, LegSolver, Tree};
+use gait::NominalTable;
+use model::{Link, Mechanism, Mirror, Side};
+use nalgebra::Point3;
+
+use crate::knot::KNOT;
+use crate::lipm_residual::LipmResidual;
+use crate::preview_controller::PreviewController;
+use crate::proportions::Proportions;
+
+/// Knots of the ZMP reference: 1.8 s, after which e^(−6) is left of the influence of a reference.
+pub const KNOTS_PREVIEWED: usize = 180;
+/// Knots over which the dynamics filter looks ahead: 1 s, after which e^(−3) is left of an influence.
+pub const KNOTS_FILTERED: usize = 100;
+/// Cost of a jerk against a ZMP error (m²/(m/s³)²); smaller tracks closer and moves the body more suddenly.
+const JERK_WEIGHT: f64 = 1e-8;
+
+/// What does not change while the robot walks.
+#[derive(Clone, Debug)]
+pub struct PatternModel {
+    /// Joints, links and soles.
+    pub mechanism: Mechanism,
+    /// The mechanism as a tree, for kinematics and dynamics.
+    pub tree: Tree,
+    /// Inverse kinematics of the legs.
+    pub legs: LegSolver,
+    /// The left–right symmetry.
+    pub mirror: Mirror,
+    /// Lengths and times that suit the size of the robot.
+    pub proportions: Proportions,
+    /// The part of the nominal half-step's ZMP that the cart-table model leaves out.
+    pub lipm_residual: LipmResidual,
+    /// Displacement of the centre of mass per displacement of the pelvis while both feet stay (-).
+    pub com_per_pelvis: f64,
+    /// Plans the centre of mass over the feet.
+    pub com_controller: PreviewController,
+    /// Plans its correction for the dynamics of the whole body.
+    pub correction_controller: PreviewController,
+}
+
+impl PatternModel {
+    /// The model of a robot that walks by `table`.
+    pub fn new(mechanism: &Mechanism, mirror: &Mirror, table: &NominalTable) -> Self {
+        let tree = Tree::new(mechanism);
+        let lipm_residual = LipmResidual::new(&tree, table);
+        let controller = |knots| PreviewController::new(lipm_residual.height_over_gravity, KNOT, knots, JERK_WEIGHT);
+        Self {
+            com_controller: controller(KNOTS_PREVIEWED),
+            correction_controller: controller(KNOTS_FILTERED),
+            mechanism: mechanism.clone(),
+            mirror: *mirror,
+            legs: LegSolver::new(mechanism),
+            proportions: Proportions::of(mechanism),
+            com_per_pelvis: com_per_pelvis(mechanism, &tree, table),
+            tree,
+            lipm_residual,
+        }
+    }
+}
+
+/// The legs shear between pelvis and ground: a link moves in proportion to its height, from the pelvis on all move
+/// alike.
+fn com_per_pelvis(mechanism: &Mechanism, tree: &Tree, table: &NominalTable) -> f64 {
+    let kinematics = Kinematics::fixed_base(tree, &table.at(0.0).angles);
+    let pelvis = kinematics.origin[Leg(Side::Right).end()].z;
+    let moved = mechanism.links.iter().map(|(link, Link { body, .. })| {
+        let com = kinematics.link_to_world(link) * Point3::from(body.com);
+        body.mass * (com.z / pelvis).min(1.0)
+    });
+    moved.sum::<f64>() / tree.mass
+}

@@ -1,0 +1,216 @@
+//! The plan: the motion from the newest knot on. Another plan can take its place as a whole.
+
+use dynamics::Kinematics;
+use gait::{Admission, Walk};
+use interface::{Command, GaitChange};
+use model::{GRAVITY, Motion};
+use nalgebra::Vector2;
+
+use crate::dynamics_filter::DynamicsFilter;
+use crate::foot_trajectory::FootTrajectory;
+use crate::footprint::Footprint;
+use crate::footstep_plan::FootstepPlan;
+use crate::gait_state::{GaitState, Goal};
+use crate::incremental_replan::{IncrementalReplan, PlanChange};
+use crate::knot::Knot;
+use crate::pattern_model::PatternModel;
+use crate::playback::Playback;
+use crate::preview_controller::CartState;
+use crate::whole_body_ik::{WholeBodyIk, WholeBodyTask};
+
+/// The footsteps, the centre of mass over them and the posture, at the newest knot.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    foot_trajectory: FootTrajectory,
+    dynamics_filter: DynamicsFilter,
+    replan: IncrementalReplan,
+    /// Correction of the centre of mass for the dynamics of the whole body, along x and y of the walk frame.
+    correction: [CartState; 2],
+    body: WholeBodyIk,
+    /// Differs whenever the plan does.
+    revision: u64,
+    /// Whether a leg was too short for the newest knot.
+    is_leg_out_of_reach: bool,
+}
+
+impl Plan {
+    /// The plan of a motion that begins now.
+    ///
+    /// * `motion` – in support coordinates
+    pub fn new(model: &PatternModel, feet: FootTrajectory, motion: &Motion) -> Self {
+        let kinematics = Kinematics::fixed_base(&model.tree, &motion.angles);
+        let com = cart_states(
+            &feet.footsteps.feet.footprint,
+            kinematics.com(&model.tree).xy(),
+            kinematics.com_velocity(&model.tree, &motion.rates).0.xy(),
+        );
+        let dynamics_filter = DynamicsFilter::new(model, &feet, com, motion);
+        Self {
+            replan: IncrementalReplan::idle(&feet, &dynamics_filter),
+            dynamics_filter,
+            correction: [CartState::zeros(); 2],
+            body: WholeBodyIk::new(model, &motion.angles),
+            revision: 0,
+            is_leg_out_of_reach: false,
+            foot_trajectory: feet,
+        }
+    }
+
+    /// Differs whenever the plan does.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// The footsteps at the newest knot.
+    pub fn footsteps(&self) -> &FootstepPlan {
+        &self.foot_trajectory.footsteps
+    }
+
+    /// The walk at the newest knot.
+    pub fn walk(&self) -> &Walk {
+        &self.footsteps().walk
+    }
+
+    /// The state of the gait at the newest knot.
+    pub fn gait_state(&self) -> GaitState {
+        self.footsteps().gait_state
+    }
+
+    /// The command in force, or in force once the robot walks.
+    pub fn command(&self) -> Command {
+        self.footsteps().command()
+    }
+
+    /// Whether a leg was too short for the newest knot, so that the posture before was kept.
+    pub fn is_leg_out_of_reach(&self) -> bool {
+        self.is_leg_out_of_reach
+    }
+
+    /// Puts in force what the limits of the gait grant of a request, and plans it; see [`Walk::admit`].
+    ///
+    /// * `playback` – whose speed override, if there is one, the plan takes over
+    pub fn admit(&mut self, model: &PatternModel, playback: &Playback, request: &GaitChange) -> Admission {
+        let before = self.command();
+        let footsteps = &mut self.foot_trajectory.footsteps;
+        let admission = footsteps.admit(request);
+        let speed = footsteps.walk.speed().target();
+        if speed != before.speed
+            && let Some(overriding) = playback.overriding_speed_at_newest(speed)
+        {
+            footsteps.walk.take_over_speed(overriding);
+        }
+        if self.command() != before {
+            self.replan_at_once(model);
+        }
+        admission
+    }
+
+    /// Changes to another gait, and plans it at once.
+    pub fn set_goal(&mut self, model: &PatternModel, goal: Goal) {
+        let before = self.gait_state();
+        let overruled = self.replan.change().goal;
+        self.foot_trajectory.footsteps.set_goal(goal);
+        if self.gait_state() != before || overruled.is_some_and(|overruled| overruled != goal) {
+            self.replan.forget_goal();
+            self.replan_at_once(model);
+        }
+    }
+
+    /// Knots until the half-step at the newest knot ends, at its present speed.
+    pub fn knots_left(&self) -> f64 {
+        self.foot_trajectory.knots_left()
+    }
+
+    /// Whether another offset of the landing is worth planning (m).
+    pub fn is_worth_adjusting(&self, model: &PatternModel, offset: Vector2<f64>) -> bool {
+        self.foot_trajectory.is_worth_adjusting(model, offset)
+    }
+
+    /// Plans a change over the coming ticks. Returns whether there is anything to change.
+    ///
+    /// * `elapsed` – time since the present knot (s)
+    pub fn replan_soon(&mut self, model: &PatternModel, change: PlanChange, elapsed: f64) -> bool {
+        let Self { foot_trajectory, dynamics_filter, replan, .. } = self;
+        let changes = replan.begin(model, foot_trajectory, dynamics_filter, change, elapsed);
+        if changes {
+            self.revision += 1;
+        }
+        changes
+    }
+
+    /// Plans anew what follows the newest knot.
+    fn replan_at_once(&mut self, model: &PatternModel) {
+        // The change in the making is made at once.
+        self.replan.cancel().apply(model, &mut self.foot_trajectory);
+        self.dynamics_filter.recompute(model, &self.foot_trajectory);
+        self.revision += 1;
+    }
+
+    /// Does a tick's share of planning.
+    ///
+    /// * `share` – share of the time to the next knot that has passed
+    /// * `elapsed` – time since the present knot (s)
+    /// * `dt` – time since the last tick (s)
+    pub fn work(&mut self, model: &PatternModel, share: f64, elapsed: f64, dt: f64) {
+        self.dynamics_filter.keep_up(model, share);
+        self.replan.work(model, elapsed, dt);
+    }
+
+    /// Advances feet and centre of mass by a knot. Returns whether the support foot changed.
+    pub fn advance(&mut self, model: &PatternModel) -> bool {
+        self.dynamics_filter.complete(model);
+        let input = self.dynamics_filter.correction_input();
+        self.correction = [0, 1].map(|axis| model.correction_controller.advance(&self.correction[axis], input[axis]));
+        self.dynamics_filter.advance();
+        let changes_support = self.foot_trajectory.advance(model);
+        if changes_support {
+            self.body.change_support(model);
+        }
+        if let Some((foot_trajectory, dynamics_filter)) = self.replan.pass_knot(model) {
+            self.foot_trajectory.clone_from(foot_trajectory);
+            self.dynamics_filter.clone_from(dynamics_filter);
+        }
+        changes_support
+    }
+
+    /// The task of the whole body at the newest knot.
+    ///
+    /// * `vertical` – lean of the vertical over the floor, in the walk frame (-)
+    pub fn task(&self, model: &PatternModel, vertical: Vector2<f64>) -> WholeBodyTask {
+        let uphill = vertical * (model.lipm_residual.height_over_gravity * GRAVITY);
+        let correction = Vector2::new(self.correction[0].x, self.correction[1].x) + uphill;
+        self.dynamics_filter.task(&self.footsteps().feet.footprint, correction)
+    }
+
+    /// Realises a task as the newest knot. A leg that is too short keeps the posture before.
+    ///
+    /// * `before` – the knot before
+    /// * `vertical` – lean of the vertical over the floor, in the walk frame (-)
+    pub fn realise(
+        &mut self,
+        model: &PatternModel,
+        task: &WholeBodyTask,
+        before: &Knot,
+        vertical: Vector2<f64>,
+    ) -> Knot {
+        let solution = self.body.solve(model, task);
+        self.is_leg_out_of_reach = solution.is_err();
+        let angles = solution.map_or(before.angles, |angles| self.foot_trajectory.to_physical(model, &angles));
+        self.revision += 1;
+        Knot {
+            angles,
+            footprint: self.footsteps().feet.footprint,
+            phase: self.foot_trajectory.phase(),
+            speed: self.foot_trajectory.speed(),
+            vertical,
+            support_weight_share: self.gait_state().support_weight_share(),
+        }
+    }
+}
+
+/// The centre of mass along x and y of the walk frame, from its position (m) and velocity (m/s) in support coordinates.
+fn cart_states(footprint: &Footprint, position: Vector2<f64>, velocity: Vector2<f64>) -> [CartState; 2] {
+    let position = footprint.point_to_walk(position);
+    let velocity = footprint.direction_to_walk(velocity);
+    [0, 1].map(|axis| CartState::new(position[axis], velocity[axis], 0.0))
+}

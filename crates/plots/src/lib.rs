@@ -1,0 +1,9 @@
+//! Analysis of recorded runs: the log of a run with its measures and falls, and plots of it as SVG.
+//!
+//! * [`run_log`]: rows of plant and controller over time, footprints, falls, and the run in a few numbers.
+//! * [`picture`]: the plots of a run and of the nominal half-step, and the charts from which other crates make theirs.
+//! * [`html`]: helpers for pages with pictures.
+
+pub mod html;
+pub mod picture;
+pub mod run_log;

@@ -1,0 +1,129 @@
+//! One panel of a picture over time: curves over light lines at support changes, marks of a fall on top.
+
+use model::Mechanism;
+
+use super::chart::{Chart, Panel, Pen, Point, stack};
+use super::fall_marks::FallMarks;
+use super::thinning::outlined;
+use crate::run_log::{ControllerRow, RunLog};
+
+/// Line at a support change.
+const SWAP: Pen = Pen::solid("#C9CBDD", 0.8);
+/// More support changes than this would cover everything, and are not marked.
+const SWAPS_MAX: usize = 120;
+/// Share of the values that [`TimePanel::usual`] leaves out at each end of its range: at every support change the zero-moment
+/// point comes from the other foot, far outside the support sole, and would flatten everything else.
+const LEFT_OUT: f64 = 0.03;
+
+/// Builds a panel over time.
+pub struct TimePanel {
+    chart: Chart,
+    bands: Vec<([Point; 4], Pen)>,
+    curves: Vec<(Vec<Point>, Pen)>,
+    range: (f64, f64),
+    left_out: f64,
+}
+
+impl TimePanel {
+    /// A panel whose range includes all values, and the values `always`.
+    pub fn new(y_label: &str, always: &[f64]) -> Self {
+        let range = always.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(min, max), y| (min.min(*y), max.max(*y)));
+        Self { chart: Chart::new("", y_label), bands: Vec::new(), curves: Vec::new(), range, left_out: 0.0 }
+    }
+
+    /// A panel whose range leaves out rare values, but includes the values `always`.
+    pub fn usual(y_label: &str, always: &[f64]) -> Self {
+        Self { left_out: LEFT_OUT, ..Self::new(y_label, always) }
+    }
+
+    /// Draws a quantity over time; NaN leaves a gap.
+    pub fn draw(&mut self, label: &str, pen: Pen, points: Vec<Point>) {
+        let mut values: Vec<f64> = points.iter().map(|point| point[1]).filter(|y| y.is_finite()).collect();
+        values.sort_by(f64::total_cmp);
+        let left_out = (values.len() as f64 * self.left_out) as usize;
+        if let (Some(min), Some(max)) = (values.get(left_out), values.iter().rev().nth(left_out)) {
+            self.range = (self.range.0.min(*min), self.range.1.max(*max));
+        }
+        self.curves.push((outlined(&points), pen));
+        self.chart.key_line(label, pen);
+    }
+
+    /// Draws a quantity of the controller over time; `None` leaves a gap.
+    pub fn draw_of(
+        &mut self,
+        label: &str,
+        pen: Pen,
+        rows: &[ControllerRow],
+        quantity: impl Fn(&ControllerRow) -> Option<f64>,
+    ) {
+        self.draw(label, pen, rows.iter().map(|row| [row.time, quantity(row).unwrap_or(f64::NAN)]).collect());
+    }
+
+    /// Fills the area between two values over some time.
+    pub fn band(&mut self, label: &str, colour: &'static str, (from, to): (f64, f64), (least, greatest): (f64, f64)) {
+        self.range = (self.range.0.min(least), self.range.1.max(greatest));
+        let corners = [[from, least], [to, least], [to, greatest], [from, greatest]];
+        if self.bands.iter().all(|(_, pen)| pen.colour != colour) {
+            self.chart.key_area(label, colour);
+        }
+        self.bands.push((corners, Pen::solid(colour, 0.4)));
+    }
+
+    /// Draws horizontal lines across the panel.
+    pub fn level(&mut self, label: &str, values: &[f64], pen: Pen) {
+        for value in values {
+            self.chart.level(*value, pen);
+        }
+        self.chart.key_line(label, pen);
+    }
+
+    /// Finishes the panel: bands, then support changes, curves over them, and the fall over all.
+    fn finish(mut self, swaps: &[f64], fall: &FallMarks, height: f64) -> Panel {
+        // An empty run has no values.
+        let (least, greatest) = if self.range.0 < self.range.1 { self.range } else { (0.0, 1.0) };
+        let pad = 0.08 * (greatest - least);
+        let (bottom, top) = (least - pad, greatest + pad);
+        for (corners, pen) in self.bands {
+            self.chart.polygon(&corners, pen, 0.2);
+        }
+        for &swap in swaps {
+            self.chart.line([[swap, bottom], [swap, top]], SWAP);
+        }
+        for (curve, pen) in self.curves {
+            self.chart.line(curve, pen);
+        }
+        fall.draw_over_time(&mut self.chart, (bottom, top));
+        Panel { chart: self.chart, y_range: (bottom, top), height }
+    }
+}
+
+/// Draws panels below each other, each `height` (px) high.
+pub fn picture(
+    title: &str,
+    log: &RunLog,
+    mechanism: &Mechanism,
+    (from, to): (f64, f64),
+    height: f64,
+    panels: Vec<TimePanel>,
+) -> String {
+    let fall = FallMarks::of(log, mechanism);
+    let swaps = log.half_steps().skip(1).map(|half_step| half_step[0].time);
+    let mut swaps: Vec<f64> = swaps.filter(|swap| (from..to).contains(swap)).collect();
+    if swaps.len() > SWAPS_MAX {
+        swaps.clear();
+    }
+    let mut panels: Vec<Panel> = panels.into_iter().map(|panel| panel.finish(&swaps, &fall, height)).collect();
+    if let Some(Panel { chart, .. }) = panels.last_mut() {
+        chart.x_label = fall.axis_label("time [s]");
+        if !swaps.is_empty() {
+            chart.key_line("swap of feet", SWAP);
+        }
+        fall.key_over_time(chart);
+    }
+    stack(&format!("{title}{}", fall.title()), (from, to), panels)
+}
+
+/// Times of the first and the last tick (s).
+pub fn whole_run(log: &RunLog) -> (f64, f64) {
+    log.controller.first().zip(log.controller.last()).map_or((0.0, 1.0), |(first, last)| (first.time, last.time))
+}

@@ -1,0 +1,111 @@
+//! Measures: a run in a few numbers.
+
+use std::f64::consts::{PI, TAU};
+
+use model::Mechanism;
+use nalgebra::Vector2;
+use serde::Serialize;
+
+use super::{Fall, FootPlacement, RunLog};
+
+/// A run in numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Measures {
+    /// Half-steps completed.
+    pub half_steps: u64,
+    /// Walked distance (m): the length of the line through the middles between consecutive footprints. So the sway of the
+    /// body from foot to foot does not count, and a half-step of the nominal counts its step length.
+    pub distance_m: f64,
+    /// Change of heading (deg), positive to the left, full circles included. The walk's heading is the mean of two
+    /// consecutive footprints', so that a half-finished turn counts half.
+    pub heading_deg: f64,
+    /// Least margin of the measured ZMP (mm); `None` if it was never measured.
+    pub min_margin_mm: Option<f64>,
+    /// Number of falls.
+    pub falls: usize,
+    /// The first fall; absent in JSON if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fall: Option<Fall>,
+}
+
+impl RunLog {
+    /// Computes the measures of the run.
+    pub fn measures(&self, mechanism: &Mechanism) -> Measures {
+        let prints = self.footprints(mechanism);
+        let done = self.controller.first().zip(self.controller.last());
+        let margins = self.controller.iter().filter_map(|row| row.margin).filter(|margin| margin.is_finite());
+        Measures {
+            half_steps: done.map_or(0, |(first, last)| last.half_step - first.half_step),
+            distance_m: distance(&prints),
+            heading_deg: heading_change(&prints).to_degrees(),
+            min_margin_mm: margins.min_by(f64::total_cmp).map(|margin| margin * 1e3),
+            falls: self.falls().count(),
+            fall: self.first_fall(mechanism),
+        }
+    }
+
+    /// Times of the falls (s).
+    pub fn falls(&self) -> impl Iterator<Item = f64> {
+        let begins_fallen = self.plant.first().filter(|row| row.fallen).map(|row| row.time);
+        let falls = self.plant.windows(2).filter(|pair| !pair[0].fallen && pair[1].fallen).map(|pair| pair[1].time);
+        begins_fallen.into_iter().chain(falls)
+    }
+}
+
+/// Length of the line through the middles between consecutive footprints (m).
+fn distance(prints: &[FootPlacement]) -> f64 {
+    let place = |print: &FootPlacement| print.sole_to_world.translation.vector.xy();
+    let middles: Vec<Vector2<f64>> = prints.windows(2).map(|pair| (place(&pair[0]) + place(&pair[1])) / 2.0).collect();
+    middles.windows(2).fold(0.0, |sum, pair| sum + (pair[1] - pair[0]).norm())
+}
+
+/// Change of the mean heading of two consecutive footprints, from the first pair to the last (rad).
+fn heading_change(prints: &[FootPlacement]) -> f64 {
+    // No foot turns by half a circle from one footprint to the next.
+    let turns: Vec<f64> = prints.windows(2).map(|pair| to_half_circle(pair[1].heading() - pair[0].heading())).collect();
+    turns.windows(2).fold(0.0, |sum, pair| sum + (pair[0] + pair[1]) / 2.0)
+}
+
+/// The same angle between −π and π.
+fn to_half_circle(angle: f64) -> f64 {
+    (angle + PI).rem_euclid(TAU) - PI
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::synthetic::{log, mechanism};
+
+    #[test]
+    fn distance_of_a_straight_walk_is_the_sum_of_its_steps() {
+        let measures = log(8, 0.0).measures(&mechanism());
+        // The first middle lies between both feet at rest, the second half a step ahead, the others a step apart.
+        assert!((measures.distance_m - (0.125 + 7.0 * 0.25)).abs() < 1e-12, "{measures:?}");
+        assert_eq!((measures.half_steps, measures.falls), (8, 0));
+        assert!(measures.heading_deg.abs() < 1e-12);
+        assert!(measures.min_margin_mm.is_some_and(|margin| (margin - 20.0).abs() < 1e-12));
+    }
+
+    #[test]
+    fn heading_counts_beyond_a_full_circle_to_either_side() {
+        for turn_deg in [10.0_f64, -10.0] {
+            let heading = log(45, turn_deg.to_radians()).measures(&mechanism()).heading_deg;
+            // From the mean of the first two prints, 0° and 0°, to that of the last two, 440° and 450°.
+            assert!((heading - 44.5 * turn_deg).abs() < 1e-9, "{heading}");
+        }
+    }
+
+    #[test]
+    fn measures_count_each_fall_once() {
+        let mut log = log(3, 0.0);
+        for tick in [4, 5, 6, 12, 13] {
+            log.plant[tick].fallen = true;
+        }
+        assert_eq!(log.falls().collect::<Vec<_>>(), [log.plant[4].time, log.plant[12].time]);
+    }
+
+    #[test]
+    fn measures_of_an_empty_log_are_zero() {
+        let measures = super::RunLog::default().measures(&mechanism());
+        assert_eq!((measures.half_steps, measures.distance_m, measures.min_margin_mm), (0, 0.0, None));
+    }
+}

@@ -1,0 +1,63 @@
+//! Lengths and forces that suit the size of the robot, all in one place.
+//!
+//! Those of the soles and the weight follow from the mechanism. The others were found for the paper's robot, with legs
+//! of 0.86 m from hip to ankle and soles of 0.28 m × 0.08 m; a robot of another size needs others.
+
+use model::{GRAVITY, Mechanism};
+use nalgebra::Vector2;
+
+/// Lengths and forces that suit the size of the robot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Proportions {
+    /// Weight of the robot (N).
+    pub weight: f64,
+    /// Half of the sole's length and width (m).
+    pub sole_half_size: Vector2<f64>,
+    /// Centre of the sole, from the point under the ankle (m).
+    pub sole_centre: Vector2<f64>,
+    /// Largest shift of the ZMP in double support (m).
+    pub double_support_zmp_shift_max: f64,
+    /// Error of the divergent component at touchdown that calls for no step adjustment, ahead and aside (m).
+    pub dcm_error_left_to_next_ankle: Vector2<f64>,
+    /// Error of the divergent component beyond what uneven ground causes (m).
+    pub dcm_error_large: f64,
+    /// Largest error of the divergent component that counts (m).
+    pub dcm_error_max: f64,
+    /// Largest ZMP shift of foot damping control (m).
+    pub foot_damping_zmp_shift_max: f64,
+    /// Largest change of a foot's height at touchdown (m).
+    pub landing_lift_max: f64,
+}
+
+/// A sixth of the distance of the feet: the ankles of both feet push, and the weight sways as the robot comes to rest
+/// (m).
+const DOUBLE_SUPPORT_ZMP_SHIFT_MAX: f64 = 0.03;
+/// Less than half of the room that the next support sole offers ahead, and most of it aside: the next ankle corrects
+/// this much (m).
+const DCM_ERROR_LEFT_TO_NEXT_ANKLE: Vector2<f64> = Vector2::new(0.05, 0.03);
+/// Errors on uneven ground stay below it; a push exceeds it (m).
+const DCM_ERROR_LARGE: f64 = 0.03;
+/// A third of the leg length: more is a glitch of a sensor, or no step can correct it (m).
+const DCM_ERROR_MAX: f64 = 0.3;
+/// Far outside the sole: with the stiffness of the ankle a tilt of the sole by 5° shifts the ZMP by as much (m).
+const FOOT_DAMPING_ZMP_SHIFT_MAX: f64 = 0.6;
+/// 3 % of the leg length: bumps and holes up to this size (m).
+const LANDING_LIFT_MAX: f64 = 0.03;
+
+impl Proportions {
+    /// The proportions of a robot.
+    pub fn of(mechanism: &Mechanism) -> Self {
+        let sole = &mechanism.sole;
+        Self {
+            weight: mechanism.mass() * GRAVITY,
+            sole_half_size: Vector2::new((sole.ahead + sole.behind) / 2.0, sole.half_width),
+            sole_centre: Vector2::new((sole.ahead - sole.behind) / 2.0, 0.0),
+            double_support_zmp_shift_max: DOUBLE_SUPPORT_ZMP_SHIFT_MAX,
+            dcm_error_left_to_next_ankle: DCM_ERROR_LEFT_TO_NEXT_ANKLE,
+            dcm_error_large: DCM_ERROR_LARGE,
+            dcm_error_max: DCM_ERROR_MAX,
+            foot_damping_zmp_shift_max: FOOT_DAMPING_ZMP_SHIFT_MAX,
+            landing_lift_max: LANDING_LIFT_MAX,
+        }
+    }
+}

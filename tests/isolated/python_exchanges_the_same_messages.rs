@@ -1,0 +1,98 @@
+//! A Python script asks the controller and hears its reports; another one is a complete plant.
+//!
+//! Needs Python: `cargo test -p halfstep-tests -- --ignored`.
+
+use std::process::{Command, Output};
+
+use halfstep_tests::command_line::CommandLine;
+use halfstep_tests::{python, repository};
+
+use crate::alone;
+
+/// A script of `tools/python/examples`, run to its end.
+fn run(mut python: Command, example: &str, instance: &str) -> Output {
+    let tools = repository().join("tools/python");
+    python.arg(tools.join("examples").join(example)).arg(instance).env("PYTHONPATH", &tools);
+    python.output().expect("Python")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+#[test]
+#[ignore = "needs Python with MuJoCo: see tools/mujoco_plant"]
+fn a_python_script_streams_commands() {
+    let _alone = alone();
+    let python = python();
+    let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
+    let controller = command_line.start_here("controller");
+    let plant = command_line.start_here("plant");
+    command_line.wait_for_controller();
+    let told = run(python, "stream.py", command_line.instance());
+    assert!(told.status.success(), "{}", text(&told.stderr));
+    let lines = text(&told.stdout);
+    assert_eq!(lines.matches("ACCEPTED").count(), 4, "{lines}");
+    assert!(lines.contains("margin"), "it has heard a report: {lines}");
+    plant.end();
+    controller.end();
+}
+
+/// A program that keeps command and then says nothing more: the walk comes to a stand. However long that takes here.
+#[test]
+#[ignore = "needs Python with MuJoCo: see tools/mujoco_plant"]
+fn the_walk_stops_when_a_python_program_falls_silent() {
+    let _alone = alone();
+    let mut python = python();
+    let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
+    let controller = command_line.start_here("controller");
+    let plant = command_line.start_here("plant");
+    command_line.wait_for_controller();
+    let program = "
+import sys
+from halfstep import Intent, Mode, Observer, Operator
+operator, observer = Operator(sys.argv[1]), Observer(sys.argv[1])
+print(operator.ask(intent=Intent.WALK, silence_s=0.3).verdict.name)
+for report in observer.reports(silence_max_s=30.0):
+    if report.mode == Mode.STANDING:
+        break
+print('stands')
+";
+    let tools = repository().join("tools/python");
+    let told = python.args(["-c", program, command_line.instance()]).env("PYTHONPATH", tools).output().expect("Python");
+    assert!(told.status.success(), "{}", text(&told.stderr));
+    assert_eq!(text(&told.stdout), "ACCEPTED\nstands\n");
+    plant.end();
+    controller.end();
+}
+
+#[test]
+#[ignore = "needs Python with MuJoCo: see tools/mujoco_plant"]
+fn a_python_script_is_a_plant() {
+    let _alone = alone();
+    let python = python();
+    let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
+    let controller = command_line.start_here("controller --lockstep --for 5s");
+    let told = run(python, "kinematic_plant.py", command_line.instance());
+    assert!(told.status.success(), "{}", text(&told.stderr));
+    assert!(text(&told.stdout).contains("5000 ticks"), "{}", text(&told.stdout));
+    let ended = controller.finish();
+    assert!(ended.stdout.contains("8 half-steps"), "{}{}", ended.stdout, ended.stderr);
+}
+
+#[test]
+#[ignore = "needs Python with MuJoCo: see tools/mujoco_plant"]
+fn a_python_plant_for_another_robot_is_refused() {
+    let _alone = alone();
+    let mut python = python();
+    let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
+    let controller = command_line.start_here("controller");
+    command_line.wait_for_controller();
+    let program = "import sys, halfstep; halfstep.Plant(0x1234, sys.argv[1])";
+    let tools = repository().join("tools/python");
+    let told = python.args(["-c", program, command_line.instance()]).env("PYTHONPATH", tools).output().expect("Python");
+    let said = text(&told.stderr);
+    assert!(said.contains("Mismatch") && said.contains("0x0000000000001234"), "{said}");
+    assert!(said.contains(&format!("{:#018x}", halfstep_tests::mechanism().fingerprint)), "{said}");
+    controller.end();
+}

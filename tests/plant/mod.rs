@@ -1,0 +1,10 @@
+//! The simulated robot by itself: contact, friction, disturbances, sensors.
+
+mod a_dropped_robot_settles_at_its_weight;
+mod a_push_changes_momentum_by_its_impulse;
+mod a_slope_tilts_nothing_but_gravity;
+mod friction_holds_below_the_cone_and_slips_above;
+mod sensor_faults_follow_the_script;
+mod smaller_steps_err_less;
+mod the_plant_may_differ_from_its_mechanism;
+mod the_plant_stands_still;

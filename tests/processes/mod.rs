@@ -1,0 +1,14 @@
+//! The `halfstep` command as people use it: controller, plant, streams, recordings. Each test has its own folder and
+//! its own instance; nearly all walk in lockstep, so that a busy machine only makes them slower.
+
+mod a_disturbance_script_is_played;
+mod a_killed_run_can_be_read;
+mod a_recording_holds_the_run;
+mod a_replay_gives_the_same_bits;
+mod a_second_controller_is_refused;
+mod a_silent_stream_stops_the_walk;
+mod a_stream_changes_the_walk_while_it_runs;
+mod bad_configuration_is_refused_with_every_error;
+mod the_committed_nominal_regenerates_bit_for_bit;
+mod the_next_start_cleans_up_after_a_killed_process;
+mod two_processes_walk_in_lockstep;

@@ -1,0 +1,160 @@
+//! Only listed places may name the clock, files, threads and iceoryx2.
+
+use crate::offence::Offence;
+use crate::paths::{body_tokens, imports, inline_paths};
+use crate::sources::Sources;
+use crate::syntax::{Token, parse_without_tests};
+
+/// Names that only listed places may use.
+pub struct Restriction<'a> {
+    /// What the names stand for, for the error message.
+    pub what: &'a str,
+    /// Sequences of path segments; a path that contains one of them is restricted.
+    pub names: &'a [&'a [&'a str]],
+    /// Files and folders that may use the names, each with its reason.
+    pub allowed: &'a [(&'a str, &'a str)],
+}
+
+/// The clock: all other code takes time as an argument.
+pub const CLOCK: Restriction<'_> = Restriction {
+    what: "the clock",
+    names: &[&["Instant"], &["SystemTime"], &["clock_gettime"], &["now_ns"]],
+    allowed: &[
+        ("crates/runtime/", "deadlines"),
+        ("crates/node/", "the loops"),
+        ("crates/bench/", "measures it"),
+        ("crates/wire/src/", "time-outs of connecting and of a reply"),
+        ("crates/cli/src/in_command.rs", "measures it"),
+        ("crates/cli/src/process.rs", "how long a child process takes"),
+        ("crates/cli/src/run_controller.rs", "the loop"),
+        ("crates/cli/src/run_plant.rs", "the loop"),
+        ("crates/cli/src/turns.rs", "the loops"),
+    ],
+};
+
+/// The file system.
+pub const FILES: Restriction<'_> = Restriction {
+    what: "files",
+    names: &[&["std", "fs"], &["File"], &["OpenOptions"], &["fs", "read_to_string"], &["fs", "write"]],
+    allowed: &[
+        ("crates/bench/src/", "what the machine is; shared memory measured by itself"),
+        ("crates/cli/src/", "what people read and write"),
+        ("crates/config/src/", "configuration files"),
+        ("crates/gait/src/table_csv.rs", "the nominal's file"),
+        ("crates/interchange/src/", "robot descriptions"),
+        ("crates/model/src/config/", "configuration files"),
+        ("crates/node/src/", "recordings and configuration"),
+        ("crates/operator/src/", "scripts"),
+        ("crates/paper/src/", "scenarios and the page"),
+        ("crates/plots/src/", "pictures"),
+        ("crates/record/src/", "recordings"),
+        ("crates/runtime/src/scheduling.rs", "what the system says of its cores"),
+        ("crates/synthesis/src/gait_recording.rs", "recorded leg shapes"),
+        ("crates/synthesis/src/recording.rs", "recorded leg shapes"),
+        ("crates/wire/src/", "locks, and what a killed process left behind"),
+    ],
+};
+
+/// The middleware: all other code sees the types of `wire`.
+pub const ICEORYX2: Restriction<'_> = Restriction {
+    what: "iceoryx2",
+    names: &[&["iceoryx2"]],
+    allowed: &[("crates/wire/src/", "wraps it"), ("crates/bench/src/", "measures it by itself")],
+};
+
+/// Threads: all other code runs on the thread of its caller.
+pub const THREADS: Restriction<'_> = Restriction {
+    what: "threads",
+    names: &[&["thread", "spawn"], &["thread", "scope"], &["thread", "Builder"], &["JoinHandle"]],
+    allowed: &[
+        ("crates/bench/src/", "load, and a partner to measure with"),
+        ("crates/cli/src/advisor.rs", "settles what was asked beside the loop"),
+        ("crates/cli/src/clerk.rs", "takes requests beside the loop"),
+        ("crates/cli/src/command/bench.rs", "measures in a thread with a large stack"),
+        ("crates/cli/src/command/stream.rs", "waits for lines"),
+        ("crates/cli/src/watched.rs", "observers to measure with"),
+        ("crates/node/src/", "what works beside the loops"),
+        ("crates/operator/src/", "waits for lines"),
+        ("crates/runtime/src/journal.rs", "writes beside the loop"),
+    ],
+};
+
+/// Uses of restricted names outside the allowed places.
+pub fn offences(sources: &Sources, restriction: &Restriction<'_>) -> Vec<Offence> {
+    let mut offences = Vec::new();
+    for (file, text) in sources.of_crates() {
+        if restriction.allowed.iter().any(|(place, _)| file.starts_with(place)) {
+            continue;
+        }
+        for (named, line) in named_in(file, text) {
+            let is_restricted = |names: &&&[&str]| named.windows(names.len()).any(|part| part.iter().eq(names.iter()));
+            if restriction.names.iter().any(|names| is_restricted(&names)) {
+                let what = format!("`{}`: {} must not be named here", named.join("::"), restriction.what);
+                offences.push(Offence::new(file, line, what));
+            }
+        }
+    }
+    offences
+}
+
+/// All paths and identifiers that a file mentions outside tests, with their lines.
+fn named_in(file: &str, text: &str) -> Vec<(Vec<String>, usize)> {
+    let mut named = Vec::new();
+    let mut open = vec![parse_without_tests(file, text).items];
+    while let Some(items) = open.pop() {
+        named.extend(imports(&items).into_iter().map(|import| (import.path.segments, import.path.line)));
+        let body = body_tokens(&items);
+        named.extend(inline_paths(&body).into_iter().map(|path| (path.segments, path.line)));
+        named.extend(body.into_iter().map(|Token { text, line }| (vec![text], line)));
+        open.extend(items.into_iter().filter_map(|item| match item {
+            syn::Item::Mod(module) => module.content.map(|(_, items)| items),
+            _ => None,
+        }));
+    }
+    named
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assert_none;
+
+    const REMEDY: &str = "Take it as an argument, or give this file a row with its reason in \
+                          tests/tidy/restricted_names.rs.";
+
+    fn check(restriction: &Restriction<'_>) {
+        let sources = Sources::of_repository();
+        assert_none(&offences(&sources, restriction), REMEDY);
+    }
+
+    #[test]
+    fn only_loops_and_benches_name_the_clock() {
+        check(&CLOCK);
+    }
+
+    #[test]
+    fn only_what_reads_or_writes_files_names_files() {
+        check(&FILES);
+    }
+
+    #[test]
+    fn only_wire_and_bench_name_iceoryx2() {
+        check(&ICEORYX2);
+    }
+
+    #[test]
+    fn only_what_works_beside_a_loop_names_threads() {
+        check(&THREADS);
+    }
+
+    #[test]
+    fn a_restricted_name_is_found_in_imports_in_code_and_in_macros() {
+        let text = "use std::{fs, io};\nfn f() { assert!(std::fs::File::open(\"x\").is_ok()) }\n\
+                    #[cfg(test)] mod tests { use std::fs::write; }";
+        let sources = Sources::sample(&[("crates/dynamics/src/lib.rs", text), ("crates/record/src/lib.rs", text)]);
+        let mut lines: Vec<usize> = offences(&sources, &FILES).iter().map(|offence| offence.line).collect();
+        lines.dedup();
+        assert_eq!(lines, [1, 2]);
+        assert!(offences(&sources, &CLOCK).is_empty());
+    }
+}

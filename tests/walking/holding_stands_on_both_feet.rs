@@ -1,0 +1,58 @@
+//! Asked to stop or hold at any moment of a walk by any command that is granted, the robot makes one calm half-step
+//! more, stands still on both feet, and walks on when asked to: side by side after a stop, in stride after a hold.
+
+use halfstep_tests::random;
+use halfstep_tests::walking::{Walking, controller_parameters};
+use interface::{GaitChange, Intent, Mode, Verdict};
+use rand::Rng;
+
+#[test]
+fn stop_and_hold_lead_to_a_stand_from_any_moment_of_the_walk() {
+    for seed in 0..12 {
+        let mut random = random(seed);
+        let limits = controller_parameters().gait.limits;
+        let request = GaitChange {
+            turn: Some(random.random_range(-limits.turn_max..=limits.turn_max)),
+            speed: Some(random.random_range(limits.speed_min..=limits.speed_max)),
+            extension: Some(random.random_range(limits.extension_min..=limits.extension_max)),
+        };
+        let intent = if seed % 2 == 0 { Intent::Stop } else { Intent::Hold };
+        let mut walking = Walking::begin(seed);
+        walking.tick(Some((&request, None)));
+        walking.walk(4.0 + random.random_range(0.0..1.2));
+
+        let report = walking.ask(GaitChange::default(), Some(intent));
+        let answer = report.reply.expect("a request is answered");
+        assert_eq!((answer.verdict, answer.intent), (Verdict::Accepted, Some(intent)));
+        let stands_at = answer.effect_half_step;
+        let half_steps = stands_at - report.report.half_step.index;
+        assert!(half_steps == 2, "seed {seed}: stands only after {half_steps} half-steps");
+
+        let mode = if intent == Intent::Stop { Mode::Standing } else { Mode::Holding };
+        let braked = walking.walk(7.0);
+        let still = walking.walk(5.0);
+        let report = walking.tick(None);
+        assert_eq!((report.report.mode, report.report.half_step.index), (mode, stands_at), "seed {seed}");
+        assert!(!still.has_fallen(), "seed {seed}: fell");
+        let moved = (still.com - braked.com).norm();
+        assert!(moved < 2e-3, "seed {seed}: moved by {moved} m while standing");
+        let heights = still.soles.map(|sole| sole.translation.z.abs());
+        assert!(heights.iter().all(|height| *height < 2e-3), "seed {seed}: soles are {heights:?} m off the ground");
+        let apart = (still.soles[1].translation.vector - still.soles[0].translation.vector).norm();
+        let side_by_side = (apart - 0.19).abs() < 0.01;
+        assert_eq!(side_by_side, intent == Intent::Stop, "seed {seed}: the feet are {apart} m apart");
+
+        // And it walks on.
+        let report = walking.tick(Some((&GaitChange::default(), Some(Intent::Walk))));
+        assert_eq!(report.reply.expect("answered").verdict, Verdict::Accepted);
+        let half_steps = report.report.half_step.index;
+        let walked = walking.walk(8.0);
+        let report = walking.tick(None);
+        assert!(!walked.has_fallen() && report.report.mode == Mode::Walking, "seed {seed}: fell after the start");
+        assert!(
+            report.report.half_step.index >= half_steps + 5,
+            "seed {seed}: only at {}",
+            report.report.half_step.index
+        );
+    }
+}

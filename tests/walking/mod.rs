@@ -1,0 +1,21 @@
+//! Controller and plant together in one process.
+
+mod a_speed_request_takes_effect_at_once;
+mod a_walk_keeps_its_bits;
+#[cfg(feature = "command-line")]
+mod another_body_gets_its_own_nominal_and_walks;
+mod bad_measurements_never_reach_a_joint;
+mod every_mode_answers_every_request;
+mod holding_stands_on_both_feet;
+mod reports_match_the_plan;
+mod same_inputs_same_bits;
+mod starts_and_stops_in_any_order;
+mod steps_in_place;
+mod the_preview_keeps_the_zmp_in_the_sole;
+mod walks_by_every_extreme_of_what_is_granted;
+mod walks_on_after_pushes;
+mod walks_on_slopes_and_with_payload;
+mod walks_on_uneven_ground;
+mod walks_on_what_it_does_not_know;
+mod walks_through_sensor_faults;
+mod walks_without_falling;

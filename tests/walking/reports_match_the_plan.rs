@@ -1,0 +1,76 @@
+//! What a tick reports of plan and compensation is what it says it is.
+//!
+//! The planned centre of mass and its velocity come from kinematics, angle by angle and rate by rate: one must be the
+//! time derivative of the other. A walk that nobody compensates has nothing added to it; a planned turn has.
+
+use controller::{Compensation, Tick};
+use halfstep_tests::mechanism;
+use halfstep_tests::walking::{PERIOD, Walking, controller_parameters, plant_parameters};
+use interface::{GaitChange, Intent};
+use model::ComState;
+
+/// The reports of a walk that turns from its beginning.
+fn reports(compensation: Compensation, seconds: f64) -> Vec<Tick> {
+    let mut parameters = controller_parameters();
+    parameters.compensation = compensation;
+    let mut walking = Walking::begin_with(&mechanism(), &parameters, &plant_parameters(), 0);
+    let turn = GaitChange { turn: Some(10_f64.to_radians()), ..GaitChange::default() };
+    let first = walking.tick(Some((&turn, None::<Intent>)));
+    let rest = (1..(seconds / PERIOD) as u64).map(|_| walking.tick(None));
+    std::iter::once(first).chain(rest).collect()
+}
+
+#[test]
+fn planned_com_velocity_is_the_rate_of_the_planned_com() {
+    let reports = reports(Compensation::Preview, 2.0);
+    let mut greatest: f64 = 0.0;
+    for around in
+        reports.windows(3).filter(|around| around[0].report.half_step.index == around[2].report.half_step.index)
+    {
+        let com = |at: usize| around[at].report.com_planned.expect("a walking robot has a plan");
+        let ComState { velocity, .. } = com(1);
+        let moved = com(2).position - com(0).position;
+        let rate = moved / (2.0 * PERIOD);
+        assert!(
+            (rate - velocity).norm() < 2e-3,
+            "{rate} m/s instead of {velocity} at {:?}",
+            around[1].report.half_step
+        );
+        greatest = greatest.max(velocity.norm());
+    }
+    assert!(greatest > 0.3, "it walks: {greatest} m/s");
+}
+
+#[test]
+fn measured_com_is_near_the_plan_and_unknown_in_the_tick_of_a_support_change() {
+    let reports = reports(Compensation::Preview, 2.0);
+    for pair in reports.windows(2) {
+        let swaps = pair[0].report.half_step.index != pair[1].report.half_step.index;
+        assert_eq!(pair[1].report.com_measured.is_none(), swaps, "{:?}", pair[1].report.half_step);
+        assert!(!swaps || pair[1].report.zmp_in_support.is_none());
+        if let Some(sensed) = pair[1].report.com_measured {
+            let planned = pair[1].report.com_planned.expect("a walking robot has a plan");
+            let error = sensed.divergent_component() - planned.divergent_component();
+            assert!(error.norm() < 0.03, "{error} m at {:?}", pair[1].report.half_step);
+        }
+    }
+}
+
+#[test]
+fn only_preview_adds_angles_to_the_nominal() {
+    let greatest = |compensation, seconds| {
+        let reports = reports(compensation, seconds);
+        let known = reports.iter().filter_map(|report| report.report.added).count();
+        assert!(known as f64 > 0.95 * reports.len() as f64, "{known} of {}", reports.len());
+        reports
+            .iter()
+            .filter_map(|report| report.report.added)
+            .map(|added| added.ankle.amax())
+            .fold(0.0, f64::max)
+            .to_degrees()
+    };
+    // Before it falls.
+    assert!(greatest(Compensation::None, 0.6) < 1e-12);
+    let planned = greatest(Compensation::Preview, 2.0);
+    assert!((0.3..5.0).contains(&planned), "{planned}°");
+}

@@ -1,0 +1,31 @@
+//! Pushed at the trunk for a tenth of a second, from any side at any phase of the half-step, the robot walks on.
+//! `cargo run --release -p halfstep-survey -- pushes` finds the largest impulse survived.
+
+use halfstep_tests::pushing::{Direction, survives, walk_to};
+use interface::GaitChange;
+
+/// Forward and back, and sideways (N·s).
+const IMPULSES: [f64; 2] = [15.0, 6.0];
+const PHASES: u32 = 12;
+
+#[test]
+fn walks_on_after_pushes_from_any_side_at_any_phase() {
+    for phase in 0..PHASES {
+        let progress = f64::from(phase) / f64::from(PHASES);
+        let walking = walk_to(7, GaitChange::default(), 5, progress).expect("the nominal walk goes on");
+        for direction in Direction::ALL {
+            let impulse = match direction {
+                Direction::Forward | Direction::Back => IMPULSES[0],
+                Direction::ToBearing | Direction::ToSwing => IMPULSES[1],
+            };
+            assert!(survives(&walking, direction, impulse), "{impulse} N·s {direction:?} at {progress:.2}");
+        }
+    }
+}
+
+/// Nobody survives everything: the check can fail.
+#[test]
+fn but_not_whatever_the_push() {
+    let walking = walk_to(7, GaitChange::default(), 5, 0.5).expect("the nominal walk goes on");
+    assert!(!survives(&walking, Direction::ToSwing, 60.0));
+}

@@ -1,0 +1,41 @@
+//! On tiles that lie up to 2 mm higher or lower than the floor, so that soles land early, late, and on edges of 4 mm,
+//! the robot walks on: a leg gives way or reaches, and the ankle takes out what the measured ZMP misses. Without either
+//! it falls.
+
+use controller::Parameters;
+use halfstep_tests::mechanism;
+use halfstep_tests::walking::{Walking, controller_parameters, plant_parameters};
+use interface::{GaitChange, Mode};
+use plant::Unevenness;
+
+/// Whether it still walks after some seconds on such tiles.
+fn walks(controller: &Parameters, tile: f64, request: GaitChange, seed: u64) -> bool {
+    let mut plant = plant_parameters();
+    plant.unevenness = Unevenness { height: 0.002, tile };
+    let mut walking = Walking::begin_with(&mechanism(), controller, &plant, seed);
+    walking.ask(request, None);
+    let upright = !walking.walk(15.0).has_fallen();
+    upright && walking.tick(None).report.mode == Mode::Walking
+}
+
+#[test]
+fn walks_on_uneven_tiles() {
+    let requests = [
+        GaitChange::default(),
+        GaitChange { speed: Some(0.7), turn: Some(0.26), ..GaitChange::default() },
+        GaitChange { speed: Some(1.3), turn: Some(-0.26), ..GaitChange::default() },
+    ];
+    for (seed, request) in requests.into_iter().enumerate() {
+        for tile in [0.3, 1.0] {
+            assert!(walks(&controller_parameters(), tile, request, seed as u64), "{tile} m tiles, {request:?}: fell");
+        }
+    }
+}
+
+#[test]
+fn falls_on_uneven_tiles_with_stiff_legs_and_blind_ankles() {
+    let mut stiff = controller_parameters();
+    stiff.stabilizer.landing.damping = 1e9;
+    stiff.stabilizer.feedback.foot_damping_time_constant = 1e6;
+    assert!((0..3).any(|seed| !walks(&stiff, 0.3, GaitChange::default(), seed)));
+}
