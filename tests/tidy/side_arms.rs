@@ -9,34 +9,18 @@ use crate::syntax::{Token, parse_without_tests, tokens};
 
 /// Files that may have `Side::Right =>` or `Side::Left =>`, each with its reason.
 pub const ALLOWED: &[(&str, &str)] = &[
-    ("crates/balance/src/preview/footprint.rs", "mirrors a vector of the ground"),
-    ("crates/balance/src/preview/footwork.rs", "mirrors physical angles"),
-    ("crates/balance/src/preview/forecast.rs", "mirrors what is compared with the limits of physical joints"),
-    ("crates/balance/src/preview/foresight.rs", "mirrors the motion of the other half-steps"),
-    ("crates/balance/src/preview/planner.rs", "mirrors the physical motion"),
-    ("crates/balance/src/sensed.rs", "mirrors what is measured"),
-    ("crates/cli/src/exchange/report.rs", "mirrors what is reported"),
-    ("crates/cli/src/exchange/row.rs", "mirrors what is written to a table"),
-    ("crates/cli/src/import/straight_legs.rs", "the joints of a leg"),
-    ("crates/cli/src/mjcf.rs", "the name of a side"),
-    ("crates/cli/src/picture/balance_over_time.rs", "the name of a side"),
-    ("crates/cli/src/picture/mod.rs", "the colour of a side"),
-    ("crates/cli/src/picture/paper_figure.rs", "mirrors a footprint"),
-    ("crates/cli/src/run_log/footprint.rs", "mirrors a point of the table"),
-    ("crates/controller/src/controller.rs", "mirrors measurement and setpoint"),
     ("crates/dynamics/src/inverse_kinematics.rs", "the joints of a leg"),
     ("crates/dynamics/src/leg_geometry.rs", "the right leg's chain begins at the foot, the left one's at the pelvis"),
     ("crates/dynamics/src/leg_solver.rs", "the right leg's chain begins at the foot, the left one's at the pelvis"),
-    ("crates/gait/src/walk.rs", "mirrors the motion"),
     ("crates/interchange/src/import/straight_legs.rs", "the joints of a leg"),
     ("crates/interchange/src/mjcf.rs", "the name of a side"),
     ("crates/model/src/mechanism.rs", "the link of a foot"),
+    ("crates/model/src/mirror.rs", "mirrors everything"),
     ("crates/model/src/side.rs", "the other side"),
     ("crates/paper/src/picture.rs", "mirrors a footprint"),
     ("crates/plots/src/picture/balance_over_time.rs", "the name of a side"),
     ("crates/plots/src/picture/colours.rs", "the colour of a side"),
     ("crates/synthesis/src/error.rs", "the name of a side"),
-    ("crates/wire/src/message/measurement.rs", "the wrench of a side"),
     ("crates/wire/src/message/report.rs", "the number of a side"),
 ];
 
@@ -46,9 +30,9 @@ pub fn offences(sources: &Sources, allowed: &[(&str, &str)]) -> Vec<Offence> {
     others.flat_map(|(file, text)| arms(file, text)).collect()
 }
 
-/// Existing files of `allowed` that do not match on a side.
+/// Files of `allowed` that do not match on a side.
 pub fn unneeded<'a>(sources: &Sources, allowed: &[(&'a str, &str)]) -> Vec<&'a str> {
-    let is_needed = |place: &str| sources.0.get(place).is_none_or(|text| !arms(place, text).is_empty());
+    let is_needed = |place: &str| sources.0.get(place).is_some_and(|text| !arms(place, text).is_empty());
     allowed.iter().map(|(place, _)| *place).filter(|place| !is_needed(place)).collect()
 }
 
