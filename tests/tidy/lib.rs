@@ -20,6 +20,7 @@ pub mod syntax;
 pub mod test_names;
 pub mod type_names;
 pub mod units;
+pub mod unused_dependencies;
 pub mod vague_names;
 pub mod workspace;
 

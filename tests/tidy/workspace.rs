@@ -30,6 +30,8 @@ pub struct Package {
 pub struct Dependency {
     /// Name of the package depended on.
     pub name: String,
+    /// Name in code, if it is another one than that of the package.
+    pub rename: Option<String>,
     /// `None` for a normal dependency, else `dev` or `build`.
     pub kind: Option<String>,
     /// Folder of the package, if it is in the workspace.
@@ -70,7 +72,11 @@ impl Workspace {
     }
 }
 
-fn relative(path: &Path, root: &Path) -> String {
+/// `path` relative to `root`, separated by `/`.
+///
+/// # Panics
+/// If it lies outside.
+pub fn relative(path: &Path, root: &Path) -> String {
     let inside = path.strip_prefix(root).unwrap_or_else(|_| panic!("{} lies outside the repository", path.display()));
     inside.to_str().expect("file names are UTF-8").replace('\\', "/")
 }
