@@ -135,7 +135,7 @@ fn every_mode_answers_every_request_and_reaches_the_expected_mode() {
             match answered {
                 Ok(()) => assert_eq!(answer.verdict, Verdict::Accepted, "{mode:?}, {ask:?}: {answer:?}"),
                 Err(refusal) => {
-                    assert_eq!((answer.verdict, answer.reason), (Verdict::Refused, refusal), "{mode:?}, {ask:?}")
+                    assert_eq!((answer.verdict, answer.reason), (Verdict::Refused, refusal), "{mode:?}, {ask:?}");
                 }
             }
             let mut last: Option<Tick> = None;

@@ -9,7 +9,7 @@ const COLOURS: [&str; 6] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00
 const BINS: usize = 120;
 
 /// Draws the histograms of several series in one picture.
-pub fn histograms(group: &[Series]) -> String {
+pub(crate) fn histograms(group: &[Series]) -> String {
     let timed = || group.iter().filter(|series| series.count() > 0);
     let least = timed().map(|series| series.quantile(0.001)).fold(f64::INFINITY, f64::min).max(1.0) * 0.8;
     let greatest = timed().map(|series| series.quantile(0.999)).fold(0.0, f64::max).max(2.0 * least) * 1.5;

@@ -43,7 +43,7 @@ fn failed(cause: impl Debug) -> BenchError {
 }
 
 impl Services {
-    pub fn new(instance: &InstanceName, makes: bool) -> Result<Self, BenchError> {
+    pub(crate) fn new(instance: &InstanceName, makes: bool) -> Result<Self, BenchError> {
         let root = std::env::temp_dir().join(format!("halfstep-{}", rustix::process::getuid().as_raw()));
         let root = root.join(instance.as_str());
         let mut config = Config::default();
@@ -54,7 +54,7 @@ impl Services {
     }
 
     /// `out` and `into` name the services.
-    pub fn blackboards<Out: Latest, In: Latest>(
+    pub(crate) fn blackboards<Out: Latest, In: Latest>(
         &self,
         out: &str,
         into: &str,
@@ -66,7 +66,11 @@ impl Services {
     }
 
     /// `out` and `into` name the services.
-    pub fn pub_sub<Out: Latest, In: Latest>(&self, out: &str, into: &str) -> Result<PubSub<Out, In>, BenchError> {
+    pub(crate) fn pub_sub<Out: Latest, In: Latest>(
+        &self,
+        out: &str,
+        into: &str,
+    ) -> Result<PubSub<Out, In>, BenchError> {
         let out = self.publishing::<Out>(out)?.publisher_builder().create().map_err(failed)?;
         let into = self.publishing::<In>(into)?.subscriber_builder().create().map_err(failed)?;
         Ok(PubSub { out, into })
@@ -103,11 +107,11 @@ fn name_of(name: &str) -> Result<ServiceName, BenchError> {
 }
 
 impl<Out: Latest, In: Latest> Blackboards<Out, In> {
-    pub fn send(&mut self, message: &Out) {
+    pub(crate) fn send(&mut self, message: &Out) {
         self.out.update_with_copy(*message);
     }
 
-    pub fn receive(&mut self) -> Option<&In> {
+    pub(crate) fn receive(&mut self) -> Option<&In> {
         if self.into.is_up_to_date(&self.last) {
             return None;
         }
@@ -117,14 +121,14 @@ impl<Out: Latest, In: Latest> Blackboards<Out, In> {
 }
 
 impl<Out: Latest + ZeroCopySend, In: Latest + ZeroCopySend> PubSub<Out, In> {
-    pub fn send(&mut self, message: &Out) {
+    pub(crate) fn send(&mut self, message: &Out) {
         // In one run nothing of this can fail after it succeeded once; a message that is lost is noticed by its answer.
         if let Ok(sample) = self.out.loan_uninit() {
             let _ = sample.write_payload(*message).send();
         }
     }
 
-    pub fn receive(&mut self) -> Option<In> {
+    pub(crate) fn receive(&mut self) -> Option<In> {
         self.into.receive().ok().flatten().map(|sample| *sample)
     }
 }

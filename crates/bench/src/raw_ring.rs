@@ -36,7 +36,7 @@ const SLOTS: u64 = 2;
 
 impl<M: Plain> SharedRing<M> {
     /// A new ring, all zeros, in a file that must not be there yet; removed when dropped.
-    pub fn make(path: &Path) -> io::Result<Self> {
+    pub(crate) fn make(path: &Path) -> io::Result<Self> {
         let file = OpenOptions::new().read(true).write(true).create_new(true).open(path)?;
         file.set_len(Self::length() as u64)?;
         let mut ring = Self::map(&file)?;
@@ -45,7 +45,7 @@ impl<M: Plain> SharedRing<M> {
     }
 
     /// The other end of a ring that was made.
-    pub fn open(path: &Path) -> io::Result<Self> {
+    pub(crate) fn open(path: &Path) -> io::Result<Self> {
         Self::map(&OpenOptions::new().read(true).write(true).open(path)?)
     }
 
@@ -64,7 +64,7 @@ impl<M: Plain> SharedRing<M> {
     }
 
     /// Writes the next message.
-    pub fn write(&mut self, message: &M) {
+    pub(crate) fn write(&mut self, message: &M) {
         let slot = self.slot();
         // SAFETY: the slot is within the mapping, and the other end reads it only once its number is there.
         unsafe {
@@ -75,7 +75,7 @@ impl<M: Plain> SharedRing<M> {
     }
 
     /// The next message, if it is there.
-    pub fn read(&mut self) -> Option<M> {
+    pub(crate) fn read(&mut self) -> Option<M> {
         let slot = self.slot();
         // SAFETY: as above; the other end comes back to this slot only after an answer to it. Any bytes are a message.
         let message = unsafe {

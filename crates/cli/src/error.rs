@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 /// Why a command could not do what it was asked to.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct CliError {
+pub(crate) struct CliError {
     /// Whether the command line or an input file is wrong.
     bad_input: bool,
     /// What the user reads.
@@ -16,22 +16,22 @@ pub struct CliError {
 
 impl CliError {
     /// Something failed while the command ran.
-    pub fn new(text: impl Display) -> Self {
+    pub(crate) fn new(text: impl Display) -> Self {
         Self { bad_input: false, text: text.to_string() }
     }
 
     /// The command line or an input file is wrong.
-    pub fn bad_input(text: impl Display) -> Self {
+    pub(crate) fn bad_input(text: impl Display) -> Self {
         Self { bad_input: true, text: text.to_string() }
     }
 
     /// A file or folder cannot be read or written.
-    pub fn file(path: &Path) -> impl Fn(io::Error) -> Self {
+    pub(crate) fn file(path: &Path) -> impl Fn(io::Error) -> Self {
         move |error| Self::new(format!("{}: {error}", path.display()))
     }
 
     /// The exit code of the program: 2 for a wrong command line or input file, else 1.
-    pub fn exit_code(&self) -> ExitCode {
+    pub(crate) fn exit_code(&self) -> ExitCode {
         ExitCode::from(if self.bad_input { 2 } else { 1 })
     }
 }

@@ -8,18 +8,18 @@ use serde::Serialize;
 use crate::error::CliError;
 
 /// Prints a value as JSON or as text.
-pub fn print(json: bool, value: &(impl Serialize + std::fmt::Display)) -> Result<(), CliError> {
+pub(crate) fn print(json: bool, value: &(impl Serialize + std::fmt::Display)) -> Result<(), CliError> {
     if json { print_json(value) } else { print_line(value) }
 }
 
 /// Prints a value as JSON on one line.
-pub fn print_json(value: &impl Serialize) -> Result<(), CliError> {
+pub(crate) fn print_json(value: &impl Serialize) -> Result<(), CliError> {
     let text = serde_json::to_string(value).map_err(CliError::new)?;
     print_line(text)
 }
 
 /// Prints a line and flushes it. A closed pipe is an error, which ends the command.
-pub fn print_line(text: impl std::fmt::Display) -> Result<(), CliError> {
+pub(crate) fn print_line(text: impl std::fmt::Display) -> Result<(), CliError> {
     use std::io::Write;
     let mut stdout = std::io::stdout().lock();
     writeln!(stdout, "{text}")
@@ -28,7 +28,7 @@ pub fn print_line(text: impl std::fmt::Display) -> Result<(), CliError> {
 }
 
 /// Writes files, given by name and text, into a folder, which is created if necessary.
-pub fn write_files(folder: &Path, files: &[(&str, String)]) -> Result<(), CliError> {
+pub(crate) fn write_files(folder: &Path, files: &[(&str, String)]) -> Result<(), CliError> {
     fs::create_dir_all(folder).map_err(CliError::file(folder))?;
     for (name, text) in files {
         let file = folder.join(name);

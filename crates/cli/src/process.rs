@@ -17,7 +17,7 @@ const POLL_INTERVAL: Duration = Duration::from_millis(5);
 
 /// A `halfstep` process started by this one. Dropping it ends the process.
 #[derive(Debug)]
-pub struct Process {
+pub(crate) struct Process {
     role: &'static str,
     child: Child,
 }
@@ -27,7 +27,7 @@ impl Process {
     ///
     /// # Errors
     /// The operating system refuses.
-    pub fn start(role: &'static str, arguments: impl IntoIterator<Item = OsString>) -> Result<Self, CliError> {
+    pub(crate) fn start(role: &'static str, arguments: impl IntoIterator<Item = OsString>) -> Result<Self, CliError> {
         let cannot = |error| CliError::new(format!("cannot start the {role}: {error}"));
         let child = Command::new(std::env::current_exe().map_err(cannot)?)
             .arg(role)
@@ -45,12 +45,12 @@ impl Process {
     ///
     /// # Errors
     /// The operating system does not know.
-    pub fn has_ended(&mut self) -> Result<bool, CliError> {
+    pub(crate) fn has_ended(&mut self) -> Result<bool, CliError> {
         Ok(self.status()?.is_some())
     }
 
     /// Asks the process to end.
-    pub fn end(&mut self) {
+    pub(crate) fn end(&mut self) {
         if let Ok(None) = self.child.try_wait() {
             // It may just have ended by itself.
             let _ = rustix::process::kill_process(Pid::from_child(&self.child), Signal::TERM);
@@ -61,7 +61,7 @@ impl Process {
     ///
     /// # Errors
     /// The process failed; it has printed why.
-    pub fn finish<T: DeserializeOwned>(mut self, timeout: Duration) -> Result<T, CliError> {
+    pub(crate) fn finish<T: DeserializeOwned>(mut self, timeout: Duration) -> Result<T, CliError> {
         if self.wait(timeout)?.is_none() {
             self.end();
         }
@@ -109,7 +109,7 @@ impl Drop for Process {
 ///
 /// # Errors
 /// The parent has ended already, or the operating system refuses.
-pub fn end_with_parent(parent: u32) -> Result<(), CliError> {
+pub(crate) fn end_with_parent(parent: u32) -> Result<(), CliError> {
     rustix::process::set_parent_process_death_signal(Some(Signal::TERM))
         .map_err(|error| CliError::new(format!("cannot bind this process to its parent: {error}")))?;
     let is_there = rustix::process::getppid().is_some_and(|pid| pid.as_raw_nonzero().get() as u32 == parent);

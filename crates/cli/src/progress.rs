@@ -5,14 +5,14 @@ use interface::Report;
 use runtime::Rate;
 
 /// A line on the terminal that shows the state of the walk; nothing if stderr is no terminal.
-pub struct Progress {
+pub(crate) struct Progress {
     bar: ProgressBar,
     rate: Rate,
 }
 
 impl Progress {
     /// The progress of a walk that takes so many ticks, or has no end.
-    pub fn new(ticks: Option<u64>, rate: Rate) -> Self {
+    pub(crate) fn new(ticks: Option<u64>, rate: Rate) -> Self {
         let (bar, template) = match ticks {
             Some(ticks) => (ProgressBar::new(ticks), "{bar:20} {msg}"),
             None => (ProgressBar::no_length(), "{spinner} {msg}"),
@@ -23,7 +23,7 @@ impl Progress {
     }
 
     /// Shows where the walk is.
-    pub fn show(&self, tick: u64, report: &Report) {
+    pub(crate) fn show(&self, tick: u64, report: &Report) {
         let margin = report.margin.map_or("   –".to_owned(), |margin| format!("{:4.0}", margin * 1e3));
         self.bar.set_position(tick + 1);
         self.bar.set_message(format!(
@@ -38,7 +38,7 @@ impl Progress {
     }
 
     /// Prints a message above the line.
-    pub fn print(&self, text: &str) {
+    pub(crate) fn print(&self, text: &str) {
         self.bar.suspend(|| eprintln!("{text}"));
     }
 }

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 /// Summary of a walk; `summary.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct WalkSummary {
+pub(crate) struct WalkSummary {
     /// Distance, heading, margin and falls.
     #[serde(flatten)]
     pub measures: Measures,
@@ -54,7 +54,7 @@ impl fmt::Display for WalkSummary {
             write!(out, "it fell at {time_s:.2} s in half-step {half_step}")?;
             match unavoidable_s {
                 Some(since) => {
-                    writeln!(out, ", unavoidably from {since:.2} s on: the capture point had left the soles")?
+                    writeln!(out, ", unavoidably from {since:.2} s on: the capture point had left the soles")?;
                 }
                 None => writeln!(out, " with its capture point over the soles")?,
             }

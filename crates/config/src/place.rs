@@ -18,7 +18,7 @@ pub(crate) struct Place<'d> {
 
 impl Place<'_> {
     /// Notes that the value is wrong; `must` states what would be right.
-    pub fn refuse(&self, must: &str) {
+    pub(crate) fn refuse(&self, must: &str) {
         let at = self.value.clone().unwrap_or(self.table.clone());
         self.source.note(self.source.error(&self.path, at, self.value.clone(), must));
     }

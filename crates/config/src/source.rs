@@ -37,22 +37,22 @@ pub(crate) struct Missing {
 
 impl<'t> Source<'t> {
     /// A source of which nothing is noted yet; `file` is its name for messages.
-    pub fn new(text: &'t str, file: &str) -> Self {
+    pub(crate) fn new(text: &'t str, file: &str) -> Self {
         Self { text, file: file.to_string(), notes: RefCell::default() }
     }
 
     /// The file's name for messages.
-    pub fn file(&self) -> &str {
+    pub(crate) fn file(&self) -> &str {
         &self.file
     }
 
     /// Notes a wrong value.
-    pub fn note(&self, error: ConfigError) {
+    pub(crate) fn note(&self, error: ConfigError) {
         self.notes.borrow_mut().errors.push(error);
     }
 
     /// The error at a place in the text. `found` is the place of the value to quote.
-    pub fn error(
+    pub(crate) fn error(
         &self,
         path: &str,
         at: Range<usize>,
@@ -75,7 +75,7 @@ impl<'t> Source<'t> {
     ///
     /// # Errors
     /// These, and everything that was noted.
-    pub fn finish(self, unknown: Vec<ConfigError>) -> Result<(), ConfigErrors> {
+    pub(crate) fn finish(self, unknown: Vec<ConfigError>) -> Result<(), ConfigErrors> {
         let Notes { errors, missing, .. } = self.notes.into_inner();
         let missing = missing.into_iter().map(|missing| missing.error);
         let errors: Vec<ConfigError> = unknown.into_iter().chain(errors).chain(missing).collect();

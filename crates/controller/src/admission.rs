@@ -26,27 +26,27 @@ pub(crate) struct Admission {
 
 impl Admission {
     /// No request yet; jobs are evaluated with `job`.
-    pub fn new(job: AdmissionJob) -> Self {
+    pub(crate) fn new(job: AdmissionJob) -> Self {
         Self { pending: Pending::Idle(Box::new(job)), reply: None }
     }
 
     /// Whether a request can be submitted: the one before has been replied to.
-    pub fn is_idle(&self) -> bool {
+    pub(crate) fn is_idle(&self) -> bool {
         matches!(self.pending, Pending::Idle(_)) && self.reply.is_none()
     }
 
     /// Replies with the next tick.
-    pub fn reply(&mut self, reply: Reply) {
+    pub(crate) fn reply(&mut self, reply: Reply) {
         self.reply = Some(reply);
     }
 
     /// The reply for this tick, if there is one.
-    pub fn take_reply(&mut self) -> Option<Reply> {
+    pub(crate) fn take_reply(&mut self) -> Option<Reply> {
         self.reply.take()
     }
 
     /// Opens a job for a request.
-    pub fn open(&mut self, generator: &PatternGenerator, request: &Request) {
+    pub(crate) fn open(&mut self, generator: &PatternGenerator, request: &Request) {
         self.pending = match std::mem::replace(&mut self.pending, Pending::InProgress) {
             Pending::Idle(mut job) => {
                 job.open(generator, request);
@@ -57,7 +57,7 @@ impl Admission {
     }
 
     /// The job that is to be evaluated, if there is one.
-    pub fn take_job(&mut self) -> Option<Box<AdmissionJob>> {
+    pub(crate) fn take_job(&mut self) -> Option<Box<AdmissionJob>> {
         match std::mem::replace(&mut self.pending, Pending::InProgress) {
             Pending::Ready(job) => Some(job),
             other => {
@@ -68,12 +68,12 @@ impl Admission {
     }
 
     /// The job is done with.
-    pub fn finish(&mut self, job: Box<AdmissionJob>) {
+    pub(crate) fn finish(&mut self, job: Box<AdmissionJob>) {
         self.pending = Pending::Idle(job);
     }
 
     /// The plan has changed meanwhile: the job is to be evaluated again.
-    pub fn reopen(&mut self, mut job: Box<AdmissionJob>, generator: &PatternGenerator) {
+    pub(crate) fn reopen(&mut self, mut job: Box<AdmissionJob>, generator: &PatternGenerator) {
         job.renew(generator);
         self.pending = Pending::Ready(job);
     }
@@ -81,7 +81,7 @@ impl Admission {
 
 impl Decision {
     /// The reply that tells it, with the intent in force then.
-    pub fn reply(&self, intent: Intent) -> Reply {
+    pub(crate) fn reply(&self, intent: Intent) -> Reply {
         let Self { verdict, granted, effect_half_step, objection, predicted_margin } = *self;
         Reply {
             verdict,
@@ -96,13 +96,13 @@ impl Decision {
     }
 
     /// The decision on a change that needs no simulation.
-    pub fn at_once(admission: &gait::Admission) -> Self {
+    pub(crate) fn at_once(admission: &gait::Admission) -> Self {
         let gait::Admission { verdict, objection, granted, effect_half_step } = *admission;
         Self { verdict, granted, effect_half_step, objection, predicted_margin: None }
     }
 
     /// The decision on a request that changes no gait parameter.
-    pub fn unchanged(granted: Command, effect_half_step: u64) -> Self {
+    pub(crate) fn unchanged(granted: Command, effect_half_step: u64) -> Self {
         Self { verdict: Verdict::Accepted, granted, effect_half_step, objection: None, predicted_margin: None }
     }
 }

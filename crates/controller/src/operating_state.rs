@@ -42,44 +42,44 @@ pub(crate) struct OperatingState {
 
 impl OperatingState {
     /// A gait is played with an intent.
-    pub fn new(intent: Intent) -> Self {
+    pub(crate) fn new(intent: Intent) -> Self {
         Self { activity: Activity::Gait, intent, latched: None }
     }
 
     /// What is intended.
-    pub fn intent(&self) -> Intent {
+    pub(crate) fn intent(&self) -> Intent {
         self.intent
     }
 
     /// Another intent is granted.
-    pub fn set_intent(&mut self, intent: Intent) {
+    pub(crate) fn set_intent(&mut self, intent: Intent) {
         self.intent = intent;
     }
 
     /// The fault that is latched, if any.
-    pub fn latched(&self) -> Option<Fault> {
+    pub(crate) fn latched(&self) -> Option<Fault> {
         self.latched
     }
 
     /// Whether the robot has fallen and was not reset since.
-    pub fn has_fallen(&self) -> bool {
+    pub(crate) fn has_fallen(&self) -> bool {
         matches!(self.activity, Activity::Fallen)
     }
 
     /// Whether the gait pattern is played.
-    pub fn plays_gait(&self) -> bool {
+    pub(crate) fn plays_gait(&self) -> bool {
         matches!(self.activity, Activity::Gait)
     }
 
     /// Latches a fall.
-    pub fn fall(&mut self) {
+    pub(crate) fn fall(&mut self) {
         self.activity = Activity::Fallen;
         self.latched = Some(Fault::Fallen);
     }
 
     /// Latches another fault than a fall, and returns whether a walk has to be stopped because of it. After a fall nothing
     /// changes.
-    pub fn latch(&mut self, fault: Fault) -> bool {
+    pub(crate) fn latch(&mut self, fault: Fault) -> bool {
         if self.has_fallen() {
             return false;
         }
@@ -88,17 +88,17 @@ impl OperatingState {
     }
 
     /// Clears a latched fault after which the gait goes on.
-    pub fn clear_fault(&mut self) {
+    pub(crate) fn clear_fault(&mut self) {
         self.latched = None;
     }
 
     /// Clears a fall: the joints return to a stand.
-    pub fn recover(&mut self, recovery: Recovery) {
+    pub(crate) fn recover(&mut self, recovery: Recovery) {
         *self = Self { activity: Activity::Recovering(recovery), intent: Intent::Stop, latched: None };
     }
 
     /// Moves a recovery on by `dt` (s) and returns its motion, by physical joint; `None` once the gait is played.
-    pub fn advance_recovery(&mut self, dt: f64) -> Option<Motion> {
+    pub(crate) fn advance_recovery(&mut self, dt: f64) -> Option<Motion> {
         let Activity::Recovering(recovery) = &mut self.activity else { return None };
         let motion = recovery.advance(dt);
         if motion.is_none() {
@@ -108,7 +108,7 @@ impl OperatingState {
     }
 
     /// The mode to report while the gait is in `phase`.
-    pub fn mode(&self, phase: GaitPhase) -> Mode {
+    pub(crate) fn mode(&self, phase: GaitPhase) -> Mode {
         match (&self.activity, phase) {
             (Activity::Fallen, _) => Mode::Fallen,
             (Activity::Recovering(_), _) => Mode::Starting,

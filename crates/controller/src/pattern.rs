@@ -24,7 +24,7 @@ pub(crate) enum Pattern {
 
 impl Pattern {
     /// A pattern at the beginning of a walk in stride.
-    pub fn new(mechanism: &Mechanism, walk: Walk, compensation: Compensation) -> Self {
+    pub(crate) fn new(mechanism: &Mechanism, walk: Walk, compensation: Compensation) -> Self {
         match compensation {
             Compensation::None => Pattern::Uncompensated(Box::new(UncompensatedGait::new(mechanism, walk))),
             Compensation::Preview => Pattern::Planned(Box::new(PatternGenerator::walking(mechanism, walk))),
@@ -32,7 +32,7 @@ impl Pattern {
     }
 
     /// The gait, whichever it is.
-    pub fn gait(&self) -> &dyn Gait {
+    pub(crate) fn gait(&self) -> &dyn Gait {
         match self {
             Pattern::Uncompensated(gait) => gait.as_ref(),
             Pattern::Planned(generator) => generator.as_ref(),
@@ -40,7 +40,7 @@ impl Pattern {
     }
 
     /// The gait, whichever it is, to be moved on.
-    pub fn gait_mut(&mut self) -> &mut dyn Gait {
+    pub(crate) fn gait_mut(&mut self) -> &mut dyn Gait {
         match self {
             Pattern::Uncompensated(gait) => gait.as_mut(),
             Pattern::Planned(generator) => generator.as_mut(),

@@ -8,7 +8,7 @@ const DURATION: f64 = 3.0;
 
 /// The motion from one posture to another, by physical joint.
 #[derive(Clone, Debug)]
-pub struct Recovery {
+pub(crate) struct Recovery {
     from: JointVector,
     to: JointVector,
     elapsed: f64,
@@ -16,12 +16,12 @@ pub struct Recovery {
 
 impl Recovery {
     /// Begins at the posture `from` and ends at the posture `to` (rad).
-    pub fn begin(from: &JointVector, to: &JointVector) -> Self {
+    pub(crate) fn begin(from: &JointVector, to: &JointVector) -> Self {
         Self { from: *from, to: *to, elapsed: 0.0 }
     }
 
     /// Moves on by `dt` (s) and returns the commanded motion; `None` when it has arrived.
-    pub fn advance(&mut self, dt: f64) -> Option<Motion> {
+    pub(crate) fn advance(&mut self, dt: f64) -> Option<Motion> {
         let before = self.posture();
         self.elapsed += dt;
         let rates = (self.posture() - before) * (1.0 / dt);

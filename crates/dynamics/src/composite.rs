@@ -18,7 +18,7 @@ pub(crate) struct Composite {
 }
 
 impl Composite {
-    pub const ZERO: Composite = Composite {
+    pub(crate) const ZERO: Composite = Composite {
         mass: 0.0,
         first: Vector3::new(0.0, 0.0, 0.0),
         second: Matrix3::new(0., 0., 0., 0., 0., 0., 0., 0., 0.),
@@ -26,7 +26,7 @@ impl Composite {
 
     /// The body of one link.
     #[inline(always)]
-    pub fn of_link(tree: &Tree, kinematics: &Kinematics, joint: Joint) -> Self {
+    pub(crate) fn of_link(tree: &Tree, kinematics: &Kinematics, joint: Joint) -> Self {
         let Some(body) = &tree.nodes[joint].body else { return Self::ZERO };
         let rotation = &kinematics.rotation[joint];
         let com = kinematics.origin[joint] + rotation * body.com;
@@ -38,7 +38,7 @@ impl Composite {
 
     /// Inertia times a motion field: the momentum for a field of velocities, the wrench for one of accelerations.
     #[inline(always)]
-    pub fn times(&self, field: &Twist) -> Wrench {
+    pub(crate) fn times(&self, field: &Twist) -> Wrench {
         Wrench {
             force: self.mass * field.linear + field.angular.cross(&self.first),
             moment: self.second * field.angular + self.first.cross(&field.linear),

@@ -24,10 +24,10 @@ pub(crate) struct Vectors {
 }
 
 impl Lanes {
-    pub const ZERO: Lanes = Lanes([0.0; LANES]);
+    pub(crate) const ZERO: Lanes = Lanes([0.0; LANES]);
 
     #[inline(always)]
-    pub fn times(self, factor: f64) -> Lanes {
+    pub(crate) fn times(self, factor: f64) -> Lanes {
         self * Lanes([factor; LANES])
     }
 }
@@ -72,30 +72,30 @@ impl Mul for Lanes {
 }
 
 impl Vectors {
-    pub const ZERO: Vectors = Vectors { x: Lanes::ZERO, y: Lanes::ZERO, z: Lanes::ZERO };
+    pub(crate) const ZERO: Vectors = Vectors { x: Lanes::ZERO, y: Lanes::ZERO, z: Lanes::ZERO };
 
-    pub fn lane(&self, lane: usize) -> Vector3<f64> {
+    pub(crate) fn lane(&self, lane: usize) -> Vector3<f64> {
         Vector3::new(self.x.0[lane], self.y.0[lane], self.z.0[lane])
     }
 
     #[inline(always)]
-    pub fn times(self, factor: f64) -> Vectors {
+    pub(crate) fn times(self, factor: f64) -> Vectors {
         Vectors { x: self.x.times(factor), y: self.y.times(factor), z: self.z.times(factor) }
     }
 
     /// The vector rotated about the unit vector `axis`, along which it has the component `share` (Rodrigues' formula).
     #[inline(always)]
-    pub fn about(&self, axis: &Vectors, share: f64, sine: Lanes, cosine: Lanes) -> Vectors {
+    pub(crate) fn about(&self, axis: &Vectors, share: f64, sine: Lanes, cosine: Lanes) -> Vectors {
         *self * cosine + axis.cross(self) * sine + axis.times(share) * (Lanes([1.0; LANES]) - cosine)
     }
 
     #[inline(always)]
-    pub fn dot(&self, other: &Vectors) -> Lanes {
+    pub(crate) fn dot(&self, other: &Vectors) -> Lanes {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
     #[inline(always)]
-    pub fn cross(&self, other: &Vectors) -> Vectors {
+    pub(crate) fn cross(&self, other: &Vectors) -> Vectors {
         Vectors {
             x: self.y * other.z - self.z * other.y,
             y: self.z * other.x - self.x * other.z,

@@ -33,7 +33,7 @@ pub(crate) struct LegGeometry {
 
 impl LegGeometry {
     /// The geometry of a leg; `None` if the mechanism's leg has another structure.
-    pub fn new(mechanism: &Mechanism, side: Side) -> Option<Self> {
+    pub(crate) fn new(mechanism: &Mechanism, side: Side) -> Option<Self> {
         let up = if side == Side::Right { 1.0 } else { -1.0 };
         let chain = Leg(side).joints();
         let mut joints = chain;
@@ -73,7 +73,7 @@ impl LegGeometry {
 
     /// As [`LegSolver::solve`](crate::LegSolver::solve).
     #[inline]
-    pub fn solve(
+    pub(crate) fn solve(
         &self,
         pelvis_to_support: &Isometry3<f64>,
         foot_to_support: &Isometry3<f64>,

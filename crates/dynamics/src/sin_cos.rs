@@ -60,7 +60,7 @@ pub(crate) struct SinCos {
 
 impl SinCos {
     #[inline(always)]
-    pub fn of(angles: &JointVector, joints: Range<usize>) -> Self {
+    pub(crate) fn of(angles: &JointVector, joints: Range<usize>) -> Self {
         let mut all = Self { sines: JointVector::ZERO, cosines: JointVector::ZERO };
         for index in joints {
             (all.sines.0[index], all.cosines.0[index]) = sin_cos(angles.0[index]);
@@ -69,7 +69,7 @@ impl SinCos {
     }
 
     #[inline(always)]
-    pub fn at(&self, joint: Joint) -> (f64, f64) {
+    pub(crate) fn at(&self, joint: Joint) -> (f64, f64) {
         (self.sines[joint], self.cosines[joint])
     }
 }

@@ -70,7 +70,7 @@ impl JointAxis {
     /// The child's rotation and the joint's axis in the world, from the parent's rotation and sine and cosine of the
     /// angle.
     #[inline(always)]
-    pub fn apply(self, parent: &Matrix3<f64>, (sine, cosine): (f64, f64)) -> (Matrix3<f64>, Vector3<f64>) {
+    pub(crate) fn apply(self, parent: &Matrix3<f64>, (sine, cosine): (f64, f64)) -> (Matrix3<f64>, Vector3<f64>) {
         let (x, y, z) = (parent.column(0), parent.column(1), parent.column(2));
         match self {
             JointAxis::X => {

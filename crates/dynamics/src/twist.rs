@@ -15,7 +15,7 @@ pub(crate) struct Twist {
 impl Twist {
     /// Rate of change of a wrench that moves along with these velocities.
     #[inline(always)]
-    pub fn rate_of(&self, wrench: &Wrench) -> Wrench {
+    pub(crate) fn rate_of(&self, wrench: &Wrench) -> Wrench {
         Wrench {
             force: self.angular.cross(&wrench.force),
             moment: self.angular.cross(&wrench.moment) + self.linear.cross(&wrench.force),

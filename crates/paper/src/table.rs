@@ -84,17 +84,17 @@ pub fn summary(figure: &Figure) -> String {
 }
 
 /// `in` or `out`.
-pub fn verdict(figure: &Figure) -> &'static str {
+pub(crate) fn verdict(figure: &Figure) -> &'static str {
     if figure.is_inside() { "in" } else { "out" }
 }
 
 /// `yes` or `NO`; nothing when the paper says nothing.
-pub fn agreement(figure: &Figure) -> &'static str {
+pub(crate) fn agreement(figure: &Figure) -> &'static str {
     figure.agrees().map_or("", |agrees| if agrees { "yes" } else { "NO" })
 }
 
 /// `ankle −2.5° / 0.5°`: the joints in the paper's order.
-pub fn lean_text(lean: &PaperLean, digits: usize) -> String {
+pub(crate) fn lean_text(lean: &PaperLean, digits: usize) -> String {
     let at = match lean.at {
         LeanAt::Ankle => "ankle",
         LeanAt::Trunk => "trunk",
@@ -104,7 +104,7 @@ pub fn lean_text(lean: &PaperLean, digits: usize) -> String {
 }
 
 /// A number with a typographic minus, without a sign before zero.
-pub fn number(value: f64, digits: usize) -> String {
+pub(crate) fn number(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     match text.strip_prefix('-') {
         Some(zero) if zero.chars().all(|digit| matches!(digit, '0' | '.')) => zero.to_owned(),

@@ -17,7 +17,7 @@ use crate::zmp_reference::ZmpReference;
 /// The coming knots by the cart-table model alone. Computed anew when the footsteps change; else one knot is added as
 /// one is used.
 #[derive(Clone, Debug)]
-pub struct DynamicsFilter {
+pub(crate) struct DynamicsFilter {
     /// The feet at the farthest knot.
     foot_trajectory: FootTrajectory,
     zmp_reference: ZmpReference,
@@ -72,7 +72,7 @@ impl DynamicsFilter {
     ///
     /// * `com` – centre of mass along x and y of the walk frame
     /// * `motion` – joints, in support coordinates
-    pub fn new(model: &PatternModel, feet: &FootTrajectory, com: [CartState; 2], motion: &Motion) -> Self {
+    pub(crate) fn new(model: &PatternModel, feet: &FootTrajectory, com: [CartState; 2], motion: &Motion) -> Self {
         let angles = feet.to_physical(model, &motion.angles);
         let task = feet.task(model, projection(&com));
         let now = FilterKnot { com, task, angles, expected_residual: Vector2::zeros() };
@@ -97,13 +97,13 @@ impl DynamicsFilter {
     }
 
     /// Computes all coming knots anew: the walk continues from the present knot by other footsteps.
-    pub fn recompute(&mut self, model: &PatternModel, feet: &FootTrajectory) {
+    pub(crate) fn recompute(&mut self, model: &PatternModel, feet: &FootTrajectory) {
         self.restart(model, feet);
         self.complete(model);
     }
 
     /// Discards the coming knots, which are to be computed by other footsteps.
-    pub fn restart(&mut self, model: &PatternModel, feet: &FootTrajectory) {
+    pub(crate) fn restart(&mut self, model: &PatternModel, feet: &FootTrajectory) {
         self.foot_trajectory.clone_from(feet);
         self.zmp_reference.restart(model, &feet.footsteps);
         (self.ahead, self.stage) = (0, Stage::CentreOfMass);
@@ -114,7 +114,7 @@ impl DynamicsFilter {
     }
 
     /// Computes all that is missing.
-    pub fn complete(&mut self, model: &PatternModel) {
+    pub(crate) fn complete(&mut self, model: &PatternModel) {
         while self.missing() >= LANES && matches!(self.stage, Stage::CentreOfMass) {
             self.extend_by_batch(model);
         }
@@ -124,12 +124,12 @@ impl DynamicsFilter {
     }
 
     /// How many knots are still to be computed.
-    pub fn missing(&self) -> usize {
+    pub(crate) fn missing(&self) -> usize {
         KNOTS_FILTERED - self.ahead
     }
 
     /// Computes one knot more, or the rest of one.
-    pub fn extend(&mut self, model: &PatternModel) {
+    pub(crate) fn extend(&mut self, model: &PatternModel) {
         let ahead = self.ahead;
         while self.ahead == ahead {
             self.compute_stage(model);
@@ -160,7 +160,7 @@ impl DynamicsFilter {
     }
 
     /// Advances by a knot: the next knot becomes the present one. All must be computed before the next call.
-    pub fn advance(&mut self) {
+    pub(crate) fn advance(&mut self) {
         self.present = self.slot(1);
         self.ahead -= 1;
     }
@@ -168,7 +168,7 @@ impl DynamicsFilter {
     /// Computes as much of the missing knot as is due.
     ///
     /// * `share` – share of the time to the next knot that has passed
-    pub fn keep_up(&mut self, model: &PatternModel, share: f64) {
+    pub(crate) fn keep_up(&mut self, model: &PatternModel, share: f64) {
         while self.missing() > 0 && self.stage.is_due(share) {
             self.compute_stage(model);
         }
@@ -178,13 +178,13 @@ impl DynamicsFilter {
     ///
     /// * `footprint` – the support foot
     /// * `correction` – of the centre of mass, in the walk frame (m)
-    pub fn task(&self, footprint: &Footprint, correction: Vector2<f64>) -> WholeBodyTask {
+    pub(crate) fn task(&self, footprint: &Footprint, correction: Vector2<f64>) -> WholeBodyTask {
         let FilterKnot { com, task, .. } = &self.knots[self.present];
         WholeBodyTask { com: footprint.point_to_support(projection(com) + correction), ..*task }
     }
 
     /// The preview input of the correction, once all knots are computed, along both axes of the walk frame.
-    pub fn correction_input(&self) -> Vector2<f64> {
+    pub(crate) fn correction_input(&self) -> Vector2<f64> {
         self.correction_input
     }
 

@@ -10,7 +10,7 @@ use crate::swing_clearance::SwingClearance;
 
 /// What is played and sensed at present.
 #[derive(Clone, Copy, Debug)]
-pub struct Execution {
+pub(crate) struct Execution {
     /// The present among the planned knots.
     pub playback: Playback,
     /// The slope of the ground.
@@ -25,7 +25,7 @@ pub struct Execution {
 
 impl Execution {
     /// At the second of four knots, upright on level ground.
-    pub fn new(proportions: &Proportions, knots: [Knot; 4]) -> Self {
+    pub(crate) fn new(proportions: &Proportions, knots: [Knot; 4]) -> Self {
         Self {
             playback: Playback::new(knots),
             slope: GroundSlopeEstimator::new(proportions),
@@ -36,7 +36,7 @@ impl Execution {
     }
 
     /// Expresses tilt and clearance in support coordinates of the other foot, which supports from the newest knot on.
-    pub fn change_support(&mut self) {
+    pub(crate) fn change_support(&mut self) {
         self.clearance.change_support();
         self.tilt.x = -self.tilt.x;
     }

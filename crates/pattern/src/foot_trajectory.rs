@@ -15,7 +15,7 @@ use crate::whole_body_ik::WholeBodyTask;
 
 /// The footsteps at a knot, with the paths of the swing sole and of the hip height between them.
 #[derive(Clone, Debug)]
-pub struct FootTrajectory {
+pub(crate) struct FootTrajectory {
     /// Which half-steps come and where they put the feet.
     pub footsteps: FootstepPlan,
     swing: SwingPath,
@@ -27,7 +27,7 @@ const PELVIS: Joint = Leg(Side::Right).end();
 
 impl FootTrajectory {
     /// The trajectory from the present knot of a footstep plan.
-    pub fn new(model: &PatternModel, footsteps: FootstepPlan) -> Self {
+    pub(crate) fn new(model: &PatternModel, footsteps: FootstepPlan) -> Self {
         Self {
             swing: swing_path(model, &footsteps),
             adjustment: StepAdjustment::default(),
@@ -37,7 +37,7 @@ impl FootTrajectory {
     }
 
     /// Advances by a knot. Returns whether the support foot changed.
-    pub fn advance(&mut self, model: &PatternModel) -> bool {
+    pub(crate) fn advance(&mut self, model: &PatternModel) -> bool {
         let Self { footsteps, swing, adjustment, hips } = self;
         let event = footsteps.advance(model);
         if event != FootstepEvent::None {
@@ -61,7 +61,7 @@ impl FootTrajectory {
     /// anything; late in a half-step or before a stand nothing changes.
     ///
     /// * `offset` – from the planned place, in support coordinates (m)
-    pub fn adjust_step(&mut self, model: &PatternModel, offset: Vector2<f64>) -> bool {
+    pub(crate) fn adjust_step(&mut self, model: &PatternModel, offset: Vector2<f64>) -> bool {
         if !self.is_worth_adjusting(model, offset) {
             return false;
         }
@@ -74,7 +74,7 @@ impl FootTrajectory {
     }
 
     /// Whether [`adjust_step`](Self::adjust_step) would change anything.
-    pub fn is_worth_adjusting(&self, model: &PatternModel, offset: Vector2<f64>) -> bool {
+    pub(crate) fn is_worth_adjusting(&self, model: &PatternModel, offset: Vector2<f64>) -> bool {
         let change = (self.within_reach(model, offset) - self.adjustment.target()).amax();
         change > model.proportions.step_adjustment_change_min
             && self.footsteps.gait_state.is_stepping()
@@ -94,7 +94,7 @@ impl FootTrajectory {
     }
 
     /// How many knots are left of the half-step at the present speed.
-    pub fn knots_left(&self) -> f64 {
+    pub(crate) fn knots_left(&self) -> f64 {
         let left = (1.0 - self.footsteps.walk.half_step().progress) * self.footsteps.walk.table().duration;
         left / self.footsteps.walk.speed().state().value / KNOT
     }
@@ -102,7 +102,7 @@ impl FootTrajectory {
     /// The task of the whole body at this knot.
     ///
     /// * `com` – projection of the centre of mass in the walk frame (m)
-    pub fn task(&self, model: &PatternModel, com: Vector2<f64>) -> WholeBodyTask {
+    pub(crate) fn task(&self, model: &PatternModel, com: Vector2<f64>) -> WholeBodyTask {
         let walk = &self.footsteps.walk;
         let progress = walk.half_step().progress;
         let nominal = walk.table().angles_at(progress);
@@ -124,23 +124,23 @@ impl FootTrajectory {
     }
 
     /// Expresses angles of support coordinates in physical joints.
-    pub fn to_physical(&self, model: &PatternModel, in_support: &JointVector) -> JointVector {
+    pub(crate) fn to_physical(&self, model: &PatternModel, in_support: &JointVector) -> JointVector {
         model.mirror.to_physical(self.footsteps.feet.footprint.side, in_support)
     }
 
     /// Expresses angles of physical joints in support coordinates.
-    pub fn to_support(&self, model: &PatternModel, physical: &JointVector) -> JointVector {
+    pub(crate) fn to_support(&self, model: &PatternModel, physical: &JointVector) -> JointVector {
         model.mirror.to_support(self.footsteps.feet.footprint.side, physical)
     }
 
     /// Half-steps since the beginning of the walk, with the progress through the present one as fraction.
-    pub fn phase(&self) -> f64 {
+    pub(crate) fn phase(&self) -> f64 {
         let half_step = self.footsteps.walk.half_step();
         half_step.index as f64 + half_step.progress
     }
 
     /// The speed factor, 0 in a stand.
-    pub fn speed(&self) -> f64 {
+    pub(crate) fn speed(&self) -> f64 {
         if self.footsteps.gait_state.is_standing() { 0.0 } else { self.footsteps.walk.speed().state().value }
     }
 }

@@ -6,7 +6,7 @@ use nalgebra::{Isometry2, Isometry3, Quaternion, Rotation2, Translation3, UnitQu
 
 /// The pose of a level sole, in support coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SolePose {
+pub(crate) struct SolePose {
     /// The point under the ankle (m).
     pub position: Vector3<f64>,
     /// Heading against the support foot (rad).
@@ -15,7 +15,7 @@ pub struct SolePose {
 
 /// The support foot in the walk frame, which has its origin where the walk began, x ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Footprint {
+pub(crate) struct Footprint {
     /// Maps coordinates of the foot to the walk frame.
     pub foot_to_walk: Isometry2<f64>,
     /// Which foot.
@@ -24,55 +24,55 @@ pub struct Footprint {
 
 impl SolePose {
     /// The swing sole in a posture, without its tilt.
-    pub fn of_swing_foot(mechanism: &Mechanism, kinematics: &Kinematics) -> Self {
+    pub(crate) fn of_swing_foot(mechanism: &Mechanism, kinematics: &Kinematics) -> Self {
         let sole = kinematics.sole_to_world(mechanism, Side::Left);
         let ahead = sole.rotation * Vector3::x();
         Self { position: sole.translation.vector, yaw: atan2(ahead.y, ahead.x) }
     }
 
     /// The former support sole in the support coordinates of this one, once this one has landed and supports.
-    pub fn former_support(&self) -> Self {
+    pub(crate) fn former_support(&self) -> Self {
         let back = Rotation2::new(-self.yaw) * -self.position.xy();
         Self { position: Vector3::new(back.x, -back.y, 0.0), yaw: self.yaw }
     }
 
     /// Maps sole coordinates to support coordinates.
-    pub fn to_support(self) -> Isometry3<f64> {
+    pub(crate) fn to_support(self) -> Isometry3<f64> {
         Isometry3::from_parts(Translation3::from(self.position), rotation_about_z(self.yaw))
     }
 }
 
 impl Footprint {
     /// The first support foot, at the origin of the walk frame.
-    pub fn first(side: Side) -> Self {
+    pub(crate) fn first(side: Side) -> Self {
         Self { foot_to_walk: Isometry2::identity(), side }
     }
 
     /// The next support foot, once it has landed.
     ///
     /// * `landed` – its pose in support coordinates of this one
-    pub fn next(&self, landed: &SolePose) -> Self {
+    pub(crate) fn next(&self, landed: &SolePose) -> Self {
         let step = Isometry2::new(self.mirrored(landed.position.xy()), self.side.lateral_sign() * landed.yaw);
         Self { foot_to_walk: self.foot_to_walk * step, side: self.side.other() }
     }
 
     /// Expresses a point of support coordinates in the walk frame.
-    pub fn point_to_walk(&self, point: Vector2<f64>) -> Vector2<f64> {
+    pub(crate) fn point_to_walk(&self, point: Vector2<f64>) -> Vector2<f64> {
         self.foot_to_walk.translation.vector + self.direction_to_walk(point)
     }
 
     /// Expresses a direction of support coordinates in the walk frame.
-    pub fn direction_to_walk(&self, direction: Vector2<f64>) -> Vector2<f64> {
+    pub(crate) fn direction_to_walk(&self, direction: Vector2<f64>) -> Vector2<f64> {
         self.foot_to_walk.rotation * self.mirrored(direction)
     }
 
     /// Expresses a point of the walk frame in support coordinates.
-    pub fn point_to_support(&self, point: Vector2<f64>) -> Vector2<f64> {
+    pub(crate) fn point_to_support(&self, point: Vector2<f64>) -> Vector2<f64> {
         self.mirrored(self.foot_to_walk.rotation.inverse() * (point - self.foot_to_walk.translation.vector))
     }
 
     /// Expresses a direction of the walk frame in support coordinates.
-    pub fn direction_to_support(&self, direction: Vector2<f64>) -> Vector2<f64> {
+    pub(crate) fn direction_to_support(&self, direction: Vector2<f64>) -> Vector2<f64> {
         self.mirrored(self.foot_to_walk.rotation.inverse() * direction)
     }
 
@@ -84,7 +84,7 @@ impl Footprint {
 
 /// A rotation about the vertical. It calls no mathematical library of the system, which would round differently
 /// elsewhere.
-pub fn rotation_about_z(angle: f64) -> UnitQuaternion<f64> {
+pub(crate) fn rotation_about_z(angle: f64) -> UnitQuaternion<f64> {
     let (sin, cos) = sin_cos(angle / 2.0);
     UnitQuaternion::new_unchecked(Quaternion::new(cos, 0.0, 0.0, sin))
 }

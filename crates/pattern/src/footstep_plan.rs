@@ -12,7 +12,7 @@ use crate::pattern_model::PatternModel;
 
 /// The commanded walk at a knot, with its footsteps. A copy advanced knot by knot gives the footsteps that come.
 #[derive(Clone, Debug)]
-pub struct FootstepPlan {
+pub(crate) struct FootstepPlan {
     /// The commanded walk.
     pub walk: Walk,
     /// Whether the robot walks, stops, stands or starts.
@@ -25,7 +25,7 @@ pub struct FootstepPlan {
 
 /// What happens to the footsteps at a knot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FootstepEvent {
+pub(crate) enum FootstepEvent {
     /// Nothing.
     None,
     /// The swing foot has landed and becomes the support foot.
@@ -36,7 +36,7 @@ pub enum FootstepEvent {
 
 /// The feet of a half-step.
 #[derive(Clone, Copy, Debug)]
-pub struct Feet {
+pub(crate) struct Feet {
     /// The support foot, in the walk frame.
     pub footprint: Footprint,
     /// The other foot before it swings, in support coordinates.
@@ -47,7 +47,7 @@ pub struct Feet {
 
 impl FootstepPlan {
     /// A walk at the very beginning of its first half-step.
-    pub fn walking(model: &PatternModel, walk: Walk) -> Self {
+    pub(crate) fn walking(model: &PatternModel, walk: Walk) -> Self {
         let kinematics = Kinematics::fixed_base(&model.tree, &walk.motion().angles);
         let lift_off = SolePose::of_swing_foot(&model.mechanism, &kinematics);
         let footprint = Footprint::first(walk.half_step().support);
@@ -59,7 +59,7 @@ impl FootstepPlan {
     }
 
     /// A stand with the feet side by side, from which the walk can be started.
-    pub fn standing(model: &PatternModel, walk: Walk) -> Self {
+    pub(crate) fn standing(model: &PatternModel, walk: Walk) -> Self {
         let parallel = beside_support(model, 0.0);
         let footprint = Footprint::first(walk.half_step().support);
         let feet = Feet { footprint, lift_off: parallel, landing: parallel };
@@ -71,12 +71,12 @@ impl FootstepPlan {
     }
 
     /// The command in force, or in force once the robot walks.
-    pub fn command(&self) -> Command {
+    pub(crate) fn command(&self) -> Command {
         self.command
     }
 
     /// Puts in force what the limits of the gait grant of a request. See [`Walk::admit`].
-    pub fn admit(&mut self, request: &GaitChange) -> Admission {
+    pub(crate) fn admit(&mut self, request: &GaitChange) -> Admission {
         let mut admission = self.walk.grant(request, self.command);
         if admission.verdict != Verdict::Refused {
             self.command = admission.granted;
@@ -88,7 +88,7 @@ impl FootstepPlan {
     }
 
     /// Commands a walk, steps in place or a stand.
-    pub fn set_goal(&mut self, goal: Goal) {
+    pub(crate) fn set_goal(&mut self, goal: Goal) {
         self.gait_state.set_goal(goal);
         if matches!(self.gait_state, GaitState::Stopping { .. }) {
             let Command { speed, extension, .. } = self.walk.command();
@@ -112,7 +112,7 @@ impl FootstepPlan {
     }
 
     /// Advances by a knot.
-    pub fn advance(&mut self, model: &PatternModel) -> FootstepEvent {
+    pub(crate) fn advance(&mut self, model: &PatternModel) -> FootstepEvent {
         let was_standing = self.gait_state.is_standing();
         let begins = self.gait_state.advance(&mut self.walk);
         if begins {
@@ -131,7 +131,7 @@ impl FootstepPlan {
 
     /// The predicted ZMP of the whole body less that of the cart-table model, in support coordinates (m); zero in a
     /// stand.
-    pub fn lipm_residual(&self, model: &PatternModel) -> Vector2<f64> {
+    pub(crate) fn lipm_residual(&self, model: &PatternModel) -> Vector2<f64> {
         if self.gait_state.is_standing() {
             return Vector2::zeros();
         }
@@ -150,7 +150,7 @@ impl FootstepPlan {
     }
 
     /// The swing sole of the modified half-step at a progress.
-    pub fn swing_sole(&self, model: &PatternModel, progress: f64) -> SolePose {
+    pub(crate) fn swing_sole(&self, model: &PatternModel, progress: f64) -> SolePose {
         let angles = self.walk.angles_at(progress);
         let kinematics = Kinematics::fixed_base_up_to(&model.tree, &angles, Mechanism::foot(Side::Left));
         SolePose::of_swing_foot(&model.mechanism, &kinematics)

@@ -10,7 +10,7 @@ use crate::proportions::Proportions;
 /// critically damped lag of the sensed one: drives and soles yield within a step and noise is white, but a slope stays
 /// over several half-steps.
 #[derive(Clone, Copy, Debug)]
-pub struct GroundSlopeEstimator {
+pub(crate) struct GroundSlopeEstimator {
     sensed: LowPass<Vector2<f64>>,
     planned: CriticallyDamped<Vector2<f64>>,
     /// Time constant of the lag (s).
@@ -22,7 +22,7 @@ const LEAN_MAX: f64 = 0.105;
 
 impl GroundSlopeEstimator {
     /// Level ground.
-    pub fn new(proportions: &Proportions) -> Self {
+    pub(crate) fn new(proportions: &Proportions) -> Self {
         Self {
             sensed: LowPass::new(proportions.sensed_vertical_time_constant, Vector2::zeros()),
             planned: CriticallyDamped::default(),
@@ -34,23 +34,23 @@ impl GroundSlopeEstimator {
     ///
     /// * `lean` – of the vertical over a sole that supports, in the walk frame (-)
     /// * `dt` – how long it lasted (s)
-    pub fn update(&mut self, lean: Vector2<f64>, dt: f64) {
+    pub(crate) fn update(&mut self, lean: Vector2<f64>, dt: f64) {
         self.sensed.update(lean.cap_magnitude(LEAN_MAX), dt);
     }
 
     /// Lets the planned lean follow the sensed one for `dt` (s), measured or not: the centre of mass moves with it, and
     /// must not jerk whenever a sole tips.
-    pub fn advance(&mut self, dt: f64) {
+    pub(crate) fn advance(&mut self, dt: f64) {
         self.planned.advance(self.sensed.value(), self.time_constant, dt);
     }
 
     /// Lean of the vertical over the floor as sensed, in the walk frame (-).
-    pub fn sensed(&self) -> Vector2<f64> {
+    pub(crate) fn sensed(&self) -> Vector2<f64> {
         self.sensed.value()
     }
 
     /// Lean of the vertical over the floor as planned, in the walk frame (-).
-    pub fn planned(&self) -> Vector2<f64> {
+    pub(crate) fn planned(&self) -> Vector2<f64> {
         self.planned.value
     }
 }

@@ -11,7 +11,7 @@ use crate::pattern_model::PatternModel;
 
 /// How much lower than the nominal the hips are over a half-step.
 #[derive(Clone, Copy, Debug)]
-pub struct HipHeight {
+pub(crate) struct HipHeight {
     /// Height of the hip over the ankle at the end of the nominal half-step (m).
     above_ankle: f64,
     /// Longest distance of hip and ankle (m).
@@ -33,7 +33,7 @@ const LATE_SWING: [f64; 6] = [0.6, 0.7, 0.8, 0.85, 0.9, 1.0];
 
 impl HipHeight {
     /// Nothing lowered.
-    pub fn new(PatternModel { tree, mechanism, proportions, .. }: &PatternModel, walk: &Walk) -> Self {
+    pub(crate) fn new(PatternModel { tree, mechanism, proportions, .. }: &PatternModel, walk: &Walk) -> Self {
         let end = Kinematics::fixed_base(tree, &walk.table().at(1.0).angles);
         Self {
             above_ankle: end.origin[Leg(Side::Right).end()].z - mechanism.sole.ankle_height,
@@ -50,7 +50,7 @@ impl HipHeight {
     ///
     /// * `half_duration` – half the half-step's duration times the rate of the pendulum (-)
     /// * `swing_sole` – the swing sole at a progress
-    pub fn begin_half_step(&mut self, half_duration: f64, swing_sole: impl Fn(f64) -> SolePose) {
+    pub(crate) fn begin_half_step(&mut self, half_duration: f64, swing_sole: impl Fn(f64) -> SolePose) {
         self.lowered_at_support_change = self.lowered_at_end;
         self.lowered_at_start = self.lowered_at_end;
         let width = Vector2::new(0.0, self.hip_width);
@@ -69,7 +69,7 @@ impl HipHeight {
     ///
     /// * `other_foot` – where the other foot stands
     /// * `weight_shift_progress` – progress of the weight shift, 0 to 1
-    pub fn crouch(&mut self, other_foot: &SolePose, weight_shift_progress: f64) {
+    pub(crate) fn crouch(&mut self, other_foot: &SolePose, weight_shift_progress: f64) {
         let spread = other_foot.position.xy() - Vector2::new(0.0, self.hip_width);
         let needed = self.needed(spread.norm() + self.hip_offset_max).max(self.lowered_at_support_change);
         let done = smooth_step((2.0 * weight_shift_progress).min(1.0));
@@ -82,7 +82,7 @@ impl HipHeight {
     }
 
     /// How much lower than the nominal the hips are at a progress (m).
-    pub fn lowered(&self, progress: f64) -> f64 {
+    pub(crate) fn lowered(&self, progress: f64) -> f64 {
         self.lowered_at_start + (self.lowered_at_end - self.lowered_at_start) * smooth_step(progress)
     }
 }

@@ -11,7 +11,7 @@ use crate::pattern_model::PatternModel;
 
 /// A plan in the making.
 #[derive(Clone, Debug)]
-pub struct IncrementalReplan {
+pub(crate) struct IncrementalReplan {
     change: PlanChange,
     /// Knots until it takes over; 0 when no plan is in the making.
     knots_left: u32,
@@ -23,7 +23,7 @@ pub struct IncrementalReplan {
 
 /// A change of the plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PlanChange {
+pub(crate) struct PlanChange {
     /// The gait to change to.
     pub goal: Option<Goal>,
     /// Offset of the landing of the swing foot, in support coordinates (m).
@@ -32,7 +32,7 @@ pub struct PlanChange {
 
 impl PlanChange {
     /// Makes the change. Returns whether anything is different.
-    pub fn apply(&self, model: &PatternModel, feet: &mut FootTrajectory) -> bool {
+    pub(crate) fn apply(&self, model: &PatternModel, feet: &mut FootTrajectory) -> bool {
         let before = feet.footsteps.gait_state;
         if let Some(goal) = self.goal {
             feet.footsteps.set_goal(goal);
@@ -44,7 +44,7 @@ impl PlanChange {
 
 impl IncrementalReplan {
     /// No plan in the making.
-    pub fn idle(feet: &FootTrajectory, filter: &DynamicsFilter) -> Self {
+    pub(crate) fn idle(feet: &FootTrajectory, filter: &DynamicsFilter) -> Self {
         Self {
             change: PlanChange::default(),
             knots_left: 0,
@@ -58,7 +58,7 @@ impl IncrementalReplan {
     ///
     /// * `feet`, `filter` – the present plan
     /// * `elapsed` – time since the present knot (s)
-    pub fn begin(
+    pub(crate) fn begin(
         &mut self,
         model: &PatternModel,
         feet: &FootTrajectory,
@@ -94,7 +94,7 @@ impl IncrementalReplan {
     ///
     /// * `elapsed` – time since the present knot (s)
     /// * `dt` – the part of it that passed since the last call (s)
-    pub fn work(&mut self, model: &PatternModel, elapsed: f64, dt: f64) {
+    pub(crate) fn work(&mut self, model: &PatternModel, elapsed: f64, dt: f64) {
         if self.knots_left == 0 {
             return;
         }
@@ -107,7 +107,7 @@ impl IncrementalReplan {
     }
 
     /// Counts a knot that has passed. Returns the plan that takes over at this knot, if one does.
-    pub fn pass_knot(&mut self, model: &PatternModel) -> Option<(&FootTrajectory, &DynamicsFilter)> {
+    pub(crate) fn pass_knot(&mut self, model: &PatternModel) -> Option<(&FootTrajectory, &DynamicsFilter)> {
         self.knots_left = self.knots_left.checked_sub(1)?;
         if self.knots_left > 0 {
             return None;
@@ -118,17 +118,17 @@ impl IncrementalReplan {
     }
 
     /// The change in the making.
-    pub fn change(&self) -> PlanChange {
+    pub(crate) fn change(&self) -> PlanChange {
         self.change
     }
 
     /// Drops the goal of the change in the making: another one is commanded.
-    pub fn forget_goal(&mut self) {
+    pub(crate) fn forget_goal(&mut self) {
         self.change.goal = None;
     }
 
     /// Ends it and returns the change that it was to make.
-    pub fn cancel(&mut self) -> PlanChange {
+    pub(crate) fn cancel(&mut self) -> PlanChange {
         self.knots_left = 0;
         std::mem::take(&mut self.change)
     }

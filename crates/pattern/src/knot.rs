@@ -10,7 +10,7 @@ pub const KNOT: f64 = 0.01;
 
 /// The motion planned for one knot.
 #[derive(Clone, Copy, Debug)]
-pub struct Knot {
+pub(crate) struct Knot {
     /// Physical joint angles (rad).
     pub angles: JointVector,
     /// The support foot.

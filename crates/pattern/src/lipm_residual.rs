@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 
 /// Centre of mass and ground wrench of the nominal half-step, row by row.
 #[derive(Clone, Debug)]
-pub struct LipmResidual {
+pub(crate) struct LipmResidual {
     rows: Vec<Row>,
     /// z/g of the centre of mass, its mean over the half-step (s²).
     pub height_over_gravity: f64,
@@ -27,7 +27,7 @@ struct Row {
 
 impl LipmResidual {
     /// Reads a table that was made for the mechanism of `tree`.
-    pub fn new(tree: &Tree, table: &NominalTable) -> Self {
+    pub(crate) fn new(tree: &Tree, table: &NominalTable) -> Self {
         let coms = table.rows.iter().map(|row| Kinematics::fixed_base(tree, &row.motion.angles).com(tree));
         let height = coms.clone().map(|com| com.z).sum::<f64>() / table.rows.len() as f64;
         let rows = table.rows.iter().zip(coms).map(|(row, com)| Row {
@@ -40,7 +40,7 @@ impl LipmResidual {
     }
 
     /// `ZMP − (c − z/g·c̈)` at a progress and a speed factor, in support coordinates (m).
-    pub fn at(&self, progress: f64, speed: f64) -> Vector2<f64> {
+    pub(crate) fn at(&self, progress: f64, speed: f64) -> Vector2<f64> {
         let place = progress.clamp(0.0, 1.0) * (self.rows.len() - 1) as f64;
         let index = (place as usize).min(self.rows.len() - 2);
         let share = place - index as f64;

@@ -11,15 +11,15 @@ use crate::preview_controller::PreviewController;
 use crate::proportions::Proportions;
 
 /// Knots of the ZMP reference: 1.8 s, after which e^(−6) is left of the influence of a reference.
-pub const KNOTS_PREVIEWED: usize = 180;
+pub(crate) const KNOTS_PREVIEWED: usize = 180;
 /// Knots over which the dynamics filter looks ahead: 1 s, after which e^(−3) is left of an influence.
-pub const KNOTS_FILTERED: usize = 100;
+pub(crate) const KNOTS_FILTERED: usize = 100;
 /// Cost of a jerk against a ZMP error (m²/(m/s³)²); smaller tracks closer and moves the body more suddenly.
 const JERK_WEIGHT: f64 = 1e-8;
 
 /// What does not change while the robot walks.
 #[derive(Clone, Debug)]
-pub struct PatternModel {
+pub(crate) struct PatternModel {
     /// Joints, links and soles.
     pub mechanism: Mechanism,
     /// The mechanism as a tree, for kinematics and dynamics.
@@ -42,7 +42,7 @@ pub struct PatternModel {
 
 impl PatternModel {
     /// The model of a robot that walks by `table`.
-    pub fn new(mechanism: &Mechanism, mirror: &Mirror, table: &NominalTable) -> Self {
+    pub(crate) fn new(mechanism: &Mechanism, mirror: &Mirror, table: &NominalTable) -> Self {
         let tree = Tree::new(mechanism);
         let lipm_residual = LipmResidual::new(&tree, table);
         let controller = |knots| PreviewController::new(lipm_residual.height_over_gravity, KNOT, knots, JERK_WEIGHT);

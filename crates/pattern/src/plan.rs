@@ -20,7 +20,7 @@ use crate::whole_body_ik::{WholeBodyIk, WholeBodyTask};
 
 /// The footsteps, the centre of mass over them and the posture, at the newest knot.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub(crate) struct Plan {
     foot_trajectory: FootTrajectory,
     dynamics_filter: DynamicsFilter,
     replan: IncrementalReplan,
@@ -37,7 +37,7 @@ impl Plan {
     /// The plan of a motion that begins now.
     ///
     /// * `motion` – in support coordinates
-    pub fn new(model: &PatternModel, feet: FootTrajectory, motion: &Motion) -> Self {
+    pub(crate) fn new(model: &PatternModel, feet: FootTrajectory, motion: &Motion) -> Self {
         let kinematics = Kinematics::fixed_base(&model.tree, &motion.angles);
         let com = cart_states(
             &feet.footsteps.feet.footprint,
@@ -57,39 +57,39 @@ impl Plan {
     }
 
     /// Differs whenever the plan does.
-    pub fn revision(&self) -> u64 {
+    pub(crate) fn revision(&self) -> u64 {
         self.revision
     }
 
     /// The footsteps at the newest knot.
-    pub fn footsteps(&self) -> &FootstepPlan {
+    pub(crate) fn footsteps(&self) -> &FootstepPlan {
         &self.foot_trajectory.footsteps
     }
 
     /// The walk at the newest knot.
-    pub fn walk(&self) -> &Walk {
+    pub(crate) fn walk(&self) -> &Walk {
         &self.footsteps().walk
     }
 
     /// The state of the gait at the newest knot.
-    pub fn gait_state(&self) -> GaitState {
+    pub(crate) fn gait_state(&self) -> GaitState {
         self.footsteps().gait_state
     }
 
     /// The command in force, or in force once the robot walks.
-    pub fn command(&self) -> Command {
+    pub(crate) fn command(&self) -> Command {
         self.footsteps().command()
     }
 
     /// Whether a leg was too short for the newest knot, so that the posture before was kept.
-    pub fn is_leg_out_of_reach(&self) -> bool {
+    pub(crate) fn is_leg_out_of_reach(&self) -> bool {
         self.is_leg_out_of_reach
     }
 
     /// Puts in force what the limits of the gait grant of a request, and plans it; see [`Walk::admit`].
     ///
     /// * `playback` – whose speed override, if there is one, the plan takes over
-    pub fn admit(&mut self, model: &PatternModel, playback: &Playback, request: &GaitChange) -> Admission {
+    pub(crate) fn admit(&mut self, model: &PatternModel, playback: &Playback, request: &GaitChange) -> Admission {
         let before = self.command();
         let footsteps = &mut self.foot_trajectory.footsteps;
         let admission = footsteps.admit(request);
@@ -106,7 +106,7 @@ impl Plan {
     }
 
     /// Changes to another gait, and plans it at once.
-    pub fn set_goal(&mut self, model: &PatternModel, goal: Goal) {
+    pub(crate) fn set_goal(&mut self, model: &PatternModel, goal: Goal) {
         let before = self.gait_state();
         let overruled = self.replan.change().goal;
         self.foot_trajectory.footsteps.set_goal(goal);
@@ -117,19 +117,19 @@ impl Plan {
     }
 
     /// Knots until the half-step at the newest knot ends, at its present speed.
-    pub fn knots_left(&self) -> f64 {
+    pub(crate) fn knots_left(&self) -> f64 {
         self.foot_trajectory.knots_left()
     }
 
     /// Whether another offset of the landing is worth planning (m).
-    pub fn is_worth_adjusting(&self, model: &PatternModel, offset: Vector2<f64>) -> bool {
+    pub(crate) fn is_worth_adjusting(&self, model: &PatternModel, offset: Vector2<f64>) -> bool {
         self.foot_trajectory.is_worth_adjusting(model, offset)
     }
 
     /// Plans a change over the coming ticks. Returns whether there is anything to change.
     ///
     /// * `elapsed` – time since the present knot (s)
-    pub fn replan_soon(&mut self, model: &PatternModel, change: PlanChange, elapsed: f64) -> bool {
+    pub(crate) fn replan_soon(&mut self, model: &PatternModel, change: PlanChange, elapsed: f64) -> bool {
         let Self { foot_trajectory, dynamics_filter, replan, .. } = self;
         let changes = replan.begin(model, foot_trajectory, dynamics_filter, change, elapsed);
         if changes {
@@ -151,13 +151,13 @@ impl Plan {
     /// * `share` – share of the time to the next knot that has passed
     /// * `elapsed` – time since the present knot (s)
     /// * `dt` – time since the last tick (s)
-    pub fn work(&mut self, model: &PatternModel, share: f64, elapsed: f64, dt: f64) {
+    pub(crate) fn work(&mut self, model: &PatternModel, share: f64, elapsed: f64, dt: f64) {
         self.dynamics_filter.keep_up(model, share);
         self.replan.work(model, elapsed, dt);
     }
 
     /// Advances feet and centre of mass by a knot. Returns whether the support foot changed.
-    pub fn advance(&mut self, model: &PatternModel) -> bool {
+    pub(crate) fn advance(&mut self, model: &PatternModel) -> bool {
         self.dynamics_filter.complete(model);
         let input = self.dynamics_filter.correction_input();
         self.correction = [0, 1].map(|axis| model.correction_controller.advance(&self.correction[axis], input[axis]));
@@ -176,7 +176,7 @@ impl Plan {
     /// The task of the whole body at the newest knot.
     ///
     /// * `vertical` – lean of the vertical over the floor, in the walk frame (-)
-    pub fn task(&self, model: &PatternModel, vertical: Vector2<f64>) -> WholeBodyTask {
+    pub(crate) fn task(&self, model: &PatternModel, vertical: Vector2<f64>) -> WholeBodyTask {
         let uphill = vertical * (model.lipm_residual.height_over_gravity * GRAVITY);
         let correction = Vector2::new(self.correction[0].x, self.correction[1].x) + uphill;
         self.dynamics_filter.task(&self.footsteps().feet.footprint, correction)
@@ -186,7 +186,7 @@ impl Plan {
     ///
     /// * `before` – the knot before
     /// * `vertical` – lean of the vertical over the floor, in the walk frame (-)
-    pub fn realise(
+    pub(crate) fn realise(
         &mut self,
         model: &PatternModel,
         task: &WholeBodyTask,

@@ -11,7 +11,7 @@ use crate::speed_override::SpeedOverride;
 
 /// The last four knots, and the present among them.
 #[derive(Clone, Copy, Debug)]
-pub struct Playback {
+pub(crate) struct Playback {
     /// Oldest first; the present lies between the second and the third.
     knots: [Knot; 4],
     /// Time since the second knot (s).
@@ -22,23 +22,23 @@ pub struct Playback {
 
 impl Playback {
     /// At the second of four knots.
-    pub fn new(knots: [Knot; 4]) -> Self {
+    pub(crate) fn new(knots: [Knot; 4]) -> Self {
         Self { knots, elapsed: 0.0, speed_override: None }
     }
 
     /// The newest knot, after which the next one is planned.
-    pub fn newest(&self) -> &Knot {
+    pub(crate) fn newest(&self) -> &Knot {
         &self.knots[3]
     }
 
     /// Replaces the oldest knot by a new one.
-    pub fn push(&mut self, knot: Knot) {
+    pub(crate) fn push(&mut self, knot: Knot) {
         self.knots.rotate_left(1);
         self.knots[3] = knot;
     }
 
     /// Advances by `dt` (s).
-    pub fn advance(&mut self, dt: f64) {
+    pub(crate) fn advance(&mut self, dt: f64) {
         let planned = self.planned_speed(self.elapsed + dt / 2.0);
         let rate = self.speed_override.as_mut().map_or(1.0, |speed| speed.advance(dt, planned));
         self.elapsed += dt * rate;
@@ -46,7 +46,7 @@ impl Playback {
 
     /// Whether the present has reached the third knot. Then that knot becomes the second one, and the next one must be
     /// [pushed](Self::push).
-    pub fn passes_knot(&mut self) -> bool {
+    pub(crate) fn passes_knot(&mut self) -> bool {
         let passes = self.elapsed >= KNOT;
         if passes {
             self.elapsed -= KNOT;
@@ -56,7 +56,7 @@ impl Playback {
     }
 
     /// Time since the second knot (s).
-    pub fn elapsed(&self) -> f64 {
+    pub(crate) fn elapsed(&self) -> f64 {
         self.elapsed
     }
 
@@ -64,27 +64,27 @@ impl Playback {
     ///
     /// * `planned` – the speed at the newest knot
     /// * `target` – the commanded speed factor
-    pub fn override_speed(&mut self, planned: &Speed, target: f64) {
+    pub(crate) fn override_speed(&mut self, planned: &Speed, target: f64) {
         let now = self.speed_override.take().map_or_else(|| planned.rewound(self.lead()), |speed| speed.speed());
         self.speed_override = Some(SpeedOverride::begin(now, target));
     }
 
     /// Returns to the planned speed.
-    pub fn cancel_speed_override(&mut self) {
+    pub(crate) fn cancel_speed_override(&mut self) {
         self.speed_override = None;
     }
 
     /// Lets the override end when the first knot of a plan that contains its speed is played.
     ///
     /// * `target` – the speed factor in force by that plan
-    pub fn end_override_with_plan(&mut self, target: f64) {
+    pub(crate) fn end_override_with_plan(&mut self, target: f64) {
         self.speed_override = self.speed_override.take().map(|speed| speed.planned(target));
     }
 
     /// The overriding speed as it will be at the newest knot.
     ///
     /// * `target` – the commanded speed factor
-    pub fn overriding_speed_at_newest(&self, target: f64) -> Option<Speed> {
+    pub(crate) fn overriding_speed_at_newest(&self, target: f64) -> Option<Speed> {
         self.speed_override.as_ref().map(|over| {
             let mut speed = over.speed();
             speed.request(target);
@@ -96,7 +96,7 @@ impl Playback {
     /// The present half-step.
     ///
     /// * `newest` – the half-step at the newest knot
-    pub fn half_step(&self, newest: HalfStep) -> HalfStep {
+    pub(crate) fn half_step(&self, newest: HalfStep) -> HalfStep {
         let [_, from, to, _] = &self.knots;
         let phase = (from.phase + (to.phase - from.phase) * self.share()).max(0.0);
         let index = phase.floor();
@@ -109,19 +109,19 @@ impl Playback {
     }
 
     /// The present speed factor.
-    pub fn speed(&self) -> f64 {
+    pub(crate) fn speed(&self) -> f64 {
         let overriding = self.speed_override.as_ref();
         overriding.map_or_else(|| self.planned_speed(self.elapsed), |over| over.speed().state().value)
     }
 
     /// The present share of the weight on the support foot.
-    pub fn support_weight_share(&self) -> f64 {
+    pub(crate) fn support_weight_share(&self) -> f64 {
         let [_, from, to, _] = &self.knots;
         from.support_weight_share + (to.support_weight_share - from.support_weight_share) * self.share()
     }
 
     /// The present motion of the physical joints.
-    pub fn physical_motion(&self) -> Motion {
+    pub(crate) fn physical_motion(&self) -> Motion {
         let [before, from, to, after] = &self.knots;
         let state = |before: &Knot, here: &Knot, after: &Knot| {
             Motion::between(&before.angles, &here.angles, &after.angles, KNOT)
@@ -130,14 +130,14 @@ impl Playback {
     }
 
     /// The present lean of the vertical over the floor as planned, and its rate, in the walk frame (-, 1/s).
-    pub fn vertical(&self) -> [Vector2<f64>; 2] {
+    pub(crate) fn vertical(&self) -> [Vector2<f64>; 2] {
         let [_, from, to, _] = &self.knots;
         let change = to.vertical - from.vertical;
         [from.vertical + change * self.share(), change / KNOT]
     }
 
     /// The present support foot, which is on the side `support`.
-    pub fn footprint(&self, support: Side) -> &Footprint {
+    pub(crate) fn footprint(&self, support: Side) -> &Footprint {
         let [_, from, to, _] = &self.knots;
         if support == from.footprint.side { &from.footprint } else { &to.footprint }
     }

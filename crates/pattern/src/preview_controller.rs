@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, RowVector3, Vector2, Vector3};
 
 /// The gains of preview control for one height of the centre of mass and one distance of knots.
 #[derive(Clone, Debug)]
-pub struct PreviewController {
+pub(crate) struct PreviewController {
     transition: Matrix3<f64>,
     input: Vector3<f64>,
     feedback: RowVector3<f64>,
@@ -19,7 +19,7 @@ pub struct PreviewController {
 }
 
 /// Position (m), velocity (m/s) and acceleration (m/s²) of the centre of mass along one axis.
-pub type CartState = Vector3<f64>;
+pub(crate) type CartState = Vector3<f64>;
 
 /// Rounds of the Riccati iteration at most; it converges within a few hundred.
 const RICCATI_ROUNDS_MAX: usize = 10_000;
@@ -33,7 +33,7 @@ impl PreviewController {
     /// * `knot` – time between knots (s)
     /// * `knots` – how many coming knots have a reference
     /// * `jerk_weight` – cost of a jerk against a ZMP error (m²/(m/s³)²); smaller tracks closer
-    pub fn new(height_over_gravity: f64, knot: f64, knots: usize, jerk_weight: f64) -> Self {
+    pub(crate) fn new(height_over_gravity: f64, knot: f64, knots: usize, jerk_weight: f64) -> Self {
         let transition = Matrix3::new(1.0, knot, knot * knot / 2.0, 0.0, 1.0, knot, 0.0, 0.0, 1.0);
         let input = Vector3::new(knot.powi(3) / 6.0, knot * knot / 2.0, knot);
         let output = RowVector3::new(1.0, 0.0, -height_over_gravity);
@@ -71,7 +71,7 @@ impl PreviewController {
     }
 
     /// How many coming knots have a reference.
-    pub fn knots(&self) -> usize {
+    pub(crate) fn knots(&self) -> usize {
         self.preview.len()
     }
 
@@ -79,7 +79,7 @@ impl PreviewController {
     ///
     /// * `ring` – references of as many knots or more
     /// * `next` – where in it the next knot's is
-    pub fn weighted_sum(&self, ring: &[Vector2<f64>], next: usize) -> Vector2<f64> {
+    pub(crate) fn weighted_sum(&self, ring: &[Vector2<f64>], next: usize) -> Vector2<f64> {
         let (later, sooner) = ring.split_at(next);
         let (soon, late) = self.preview.split_at(sooner.len().min(self.knots()));
         dot(sooner, soon) + dot(later, late)
@@ -88,7 +88,7 @@ impl PreviewController {
     /// The state one knot later.
     ///
     /// * `weighted_sum` – of the references of the coming knots, see [`weighted_sum`](Self::weighted_sum)
-    pub fn advance(&self, state: &CartState, weighted_sum: f64) -> CartState {
+    pub(crate) fn advance(&self, state: &CartState, weighted_sum: f64) -> CartState {
         let jerk = weighted_sum - (self.feedback * state)[0];
         self.transition * state + self.input * jerk
     }

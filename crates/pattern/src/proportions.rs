@@ -8,7 +8,7 @@ use nalgebra::Vector2;
 
 /// Lengths and times that suit the size of the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Proportions {
+pub(crate) struct Proportions {
     /// Longest distance of hip joint and ankle joint that the hip height is planned for (m).
     pub planned_leg_length_max: f64,
     /// Longest distance of hip joint and ankle joint that inverse kinematics uses (m).
@@ -64,7 +64,7 @@ const SLOPE_TIME_CONSTANT: f64 = 0.25;
 
 impl Proportions {
     /// The proportions of a robot.
-    pub fn of(mechanism: &Mechanism) -> Self {
+    pub(crate) fn of(mechanism: &Mechanism) -> Self {
         let length = |joint: Joint| mechanism.links[joint].origin.norm();
         let leg = length(Joint::RightKnee) + length(Joint::RightHipPitch);
         Self {

@@ -15,7 +15,7 @@ const RATE_DEVIATION_MAX: f64 = 0.01;
 
 /// A speed on its way from the planned one to the commanded one.
 #[derive(Clone, Copy, Debug)]
-pub struct SpeedOverride {
+pub(crate) struct SpeedOverride {
     speed: Speed,
     knots_left: u32,
 }
@@ -25,24 +25,24 @@ impl SpeedOverride {
     ///
     /// * `now` – the present speed
     /// * `target` – the commanded speed factor
-    pub fn begin(now: Speed, target: f64) -> Self {
+    pub(crate) fn begin(now: Speed, target: f64) -> Self {
         Self { speed: towards(now, target), knots_left: KNOTS_UNTIL_PLANNED }
     }
 
     /// The same override once it is planned: it ends when the first knot of that plan is played.
-    pub fn planned(self, target: f64) -> Self {
+    pub(crate) fn planned(self, target: f64) -> Self {
         Self { speed: towards(self.speed, target), knots_left: KNOTS_UNTIL_PLAYED }
     }
 
     /// The present speed.
-    pub fn speed(&self) -> Speed {
+    pub(crate) fn speed(&self) -> Speed {
         self.speed
     }
 
     /// Advances by `dt` (s). Returns the rate of playback: 1 is as planned.
     ///
     /// * `planned` – planned speed factor in the middle of `dt`
-    pub fn advance(&mut self, dt: f64, planned: f64) -> f64 {
+    pub(crate) fn advance(&mut self, dt: f64, planned: f64) -> f64 {
         let rate = self.speed.advance(dt) / (planned * dt);
         // In a stand, or after no time, there is no rate.
         let bounded = rate.clamp(1.0 - RATE_DEVIATION_MAX, 1.0 + RATE_DEVIATION_MAX);
@@ -50,7 +50,7 @@ impl SpeedOverride {
     }
 
     /// The rest of the override after a knot has passed, if any.
-    pub fn after_knot(self) -> Option<Self> {
+    pub(crate) fn after_knot(self) -> Option<Self> {
         let knots_left = self.knots_left.checked_sub(1)?;
         Some(Self { knots_left, ..self })
     }

@@ -7,7 +7,7 @@ use signal::quintic_to_rest;
 /// The offset of the swing sole over a half-step: a quintic from the present offset to its target, computed anew
 /// whenever the target changes, so that the sole's acceleration is continuous and the sole lands at rest.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct StepAdjustment {
+pub(crate) struct StepAdjustment {
     /// Coefficients of the polynomial over the rest of the half-step (m).
     coefficients: [Vector2<f64>; 6],
     /// Progress at which the polynomial begins.
@@ -23,17 +23,17 @@ const FINAL: f64 = 0.75;
 
 impl StepAdjustment {
     /// Offset of the landing from its planned place (m).
-    pub fn target(&self) -> Vector2<f64> {
+    pub(crate) fn target(&self) -> Vector2<f64> {
         self.target
     }
 
     /// Whether the target may still change at a progress.
-    pub fn is_in_time(progress: f64) -> bool {
+    pub(crate) fn is_in_time(progress: f64) -> bool {
         progress <= FINAL
     }
 
     /// Changes the target, while [`is_in_time`](Self::is_in_time).
-    pub fn retarget(&mut self, progress: f64, target: Vector2<f64>) {
+    pub(crate) fn retarget(&mut self, progress: f64, target: Vector2<f64>) {
         let [value, rate, acceleration] = self.at(progress);
         let span = IN_PLACE - progress;
         self.coefficients = quintic_to_rest(value, rate * span, acceleration * (span * span), target);
@@ -42,7 +42,7 @@ impl StepAdjustment {
     }
 
     /// The offset at a progress (m), with its first and second derivative by the progress.
-    pub fn at(&self, progress: f64) -> [Vector2<f64>; 3] {
+    pub(crate) fn at(&self, progress: f64) -> [Vector2<f64>; 3] {
         if progress >= IN_PLACE {
             return [self.target, Vector2::zeros(), Vector2::zeros()];
         }

@@ -9,7 +9,7 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 /// A stop on both feet, in support coordinates.
 #[derive(Clone, Debug)]
-pub struct StopInStride {
+pub(crate) struct StopInStride {
     /// Decay rate of all velocities (1/s).
     decay: f64,
     pelvis: Isometry3<f64>,
@@ -27,7 +27,7 @@ impl StopInStride {
     /// Begins with a motion in which both soles are on the ground and at rest.
     ///
     /// * `pendulum_rate` – `ω` of the inverted pendulum (rad/s)
-    pub fn begin(tree: &Tree, motion: &Motion, pendulum_rate: f64) -> Self {
+    pub(crate) fn begin(tree: &Tree, motion: &Motion, pendulum_rate: f64) -> Self {
         let kinematics = Kinematics::fixed_base(tree, &motion.angles);
         let pelvis = kinematics.link_to_world(PELVIS);
         let (mut pelvis_rate, mut pelvis_velocity) = (Vector3::zeros(), Vector3::zeros());
@@ -47,7 +47,7 @@ impl StopInStride {
     }
 
     /// Moves on by `dt` seconds. A leg that would be overextended stops the pelvis where it is.
-    pub fn advance(&mut self, tree: &Tree, dt: f64) {
+    pub(crate) fn advance(&mut self, tree: &Tree, dt: f64) {
         let remains = 1.0 / (1.0 + self.decay * dt);
         let pelvis_velocity = self.pelvis_velocity * remains;
         let pelvis_rate = self.pelvis_rate * remains;
@@ -81,7 +81,7 @@ impl StopInStride {
     }
 
     /// The commanded motion, in support coordinates.
-    pub fn motion(&self) -> Motion {
+    pub(crate) fn motion(&self) -> Motion {
         self.motion
     }
 }

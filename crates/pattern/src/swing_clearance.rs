@@ -9,7 +9,7 @@ use crate::proportions::Proportions;
 /// Additional height of the swing sole, so that it is where it was planned over the real floor: a critically damped
 /// lag.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct SwingClearance {
+pub(crate) struct SwingClearance {
     /// Height (m) and its rate (m/s).
     height: CriticallyDamped<f64>,
 }
@@ -19,24 +19,24 @@ impl SwingClearance {
     ///
     /// * `tilt` – of the body beyond the plan, about x and y of support coordinates (rad)
     /// * `sole` – the swing sole, in support coordinates (m)
-    pub fn advance(&mut self, proportions: &Proportions, tilt: Vector2<f64>, sole: Vector2<f64>, dt: f64) {
+    pub(crate) fn advance(&mut self, proportions: &Proportions, tilt: Vector2<f64>, sole: Vector2<f64>, dt: f64) {
         let lost = tilt.x * sole.y - tilt.y * sole.x;
         let max = proportions.swing_clearance_max;
         self.height.advance((-lost).clamp(-max, max), proportions.swing_clearance_time_constant, dt);
     }
 
     /// Expresses it over the other sole, which supports from now on.
-    pub fn change_support(&mut self) {
+    pub(crate) fn change_support(&mut self) {
         self.height = CriticallyDamped { value: -self.height.value, rate: -self.height.rate };
     }
 
     /// Additional height of the swing sole (m).
-    pub fn of_sole(&self) -> f64 {
+    pub(crate) fn of_sole(&self) -> f64 {
         self.height.value
     }
 
     /// Additional height of the hips (m): half as much, so that nothing jumps when the support changes.
-    pub fn of_hips(&self) -> f64 {
+    pub(crate) fn of_hips(&self) -> f64 {
         self.height.value / 2.0
     }
 }

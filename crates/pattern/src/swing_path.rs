@@ -11,7 +11,7 @@ use crate::footprint::SolePose;
 
 /// The corrections of one half-step's swing sole, over its progress from 0 to 1. Each is position (m) and yaw (rad).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SwingPath {
+pub(crate) struct SwingPath {
     /// Offset of the real lift-off from that of the modified half-step.
     lift_off: Vector4<f64>,
     /// Offset of the planned landing from that of the modified half-step.
@@ -31,7 +31,7 @@ impl SwingPath {
     /// * `lift_off` – where the foot stands
     /// * `landing` – where it shall land
     /// * `modified` – the swing sole of the modified half-step at a progress
-    pub fn new(lift_off: &SolePose, landing: &SolePose, modified: impl Fn(f64) -> SolePose) -> Self {
+    pub(crate) fn new(lift_off: &SolePose, landing: &SolePose, modified: impl Fn(f64) -> SolePose) -> Self {
         let (first, last) = (vector(&modified(0.0)), vector(&modified(1.0)));
         let start_rate = (vector(&modified(RATE_STEP)) - first) / RATE_STEP;
         let end_rate = (last - vector(&modified(1.0 - RATE_STEP))) / RATE_STEP;
@@ -41,7 +41,7 @@ impl SwingPath {
     /// The swing sole at `progress`.
     ///
     /// * `modified` – the swing sole of the modified half-step there
-    pub fn at(&self, progress: f64, modified: &SolePose) -> SolePose {
+    pub(crate) fn at(&self, progress: f64, modified: &SolePose) -> SolePose {
         let s = progress;
         let blend = smooth_step(s);
         let leaving = s * (1.0 - s) * (1.0 - s);

@@ -9,7 +9,7 @@ use crate::pattern_model::PatternModel;
 
 /// The task that a posture fulfils, in support coordinates.
 #[derive(Clone, Copy, Debug)]
-pub struct WholeBodyTask {
+pub(crate) struct WholeBodyTask {
     /// Projection of the centre of mass (m).
     pub com: Vector2<f64>,
     /// Height of the hip joints (m).
@@ -26,7 +26,7 @@ pub struct WholeBodyTask {
 
 /// The solver. Each solution starts from the one before.
 #[derive(Clone, Debug)]
-pub struct WholeBodyIk {
+pub(crate) struct WholeBodyIk {
     /// The last solution (rad).
     angles: JointVector,
     kinematics: Kinematics,
@@ -47,7 +47,7 @@ const COM_ERROR_NEAR: f64 = 1e-5;
 
 impl WholeBodyIk {
     /// Starts from a posture in support coordinates.
-    pub fn new(model: &PatternModel, angles: &JointVector) -> Self {
+    pub(crate) fn new(model: &PatternModel, angles: &JointVector) -> Self {
         let kinematics = Kinematics::fixed_base(&model.tree, angles);
         let hip_from_com = kinematics.origin[PELVIS].xy() - kinematics.com(&model.tree).xy();
         Self {
@@ -60,7 +60,7 @@ impl WholeBodyIk {
     }
 
     /// Sets the expected change of the angles to the next solution (rad).
-    pub fn expect_change(&mut self, change: &JointVector) {
+    pub(crate) fn expect_change(&mut self, change: &JointVector) {
         self.change = *change;
     }
 
@@ -68,7 +68,7 @@ impl WholeBodyIk {
     ///
     /// # Errors
     /// [`Unreachable`] when a leg is too short; the last solution stays.
-    pub fn solve(&mut self, model: &PatternModel, task: &WholeBodyTask) -> Result<JointVector, Unreachable> {
+    pub(crate) fn solve(&mut self, model: &PatternModel, task: &WholeBodyTask) -> Result<JointVector, Unreachable> {
         let PatternModel { tree, mechanism, legs, .. } = model;
         let mut angles = self.angles + self.change;
         for joint in Joint::ALL.into_iter().filter(|joint| !joint.is_in_leg()) {
@@ -103,7 +103,7 @@ impl WholeBodyIk {
     }
 
     /// Expresses the last solution in support coordinates of the other foot, which supports from now on.
-    pub fn change_support(&mut self, model: &PatternModel) {
+    pub(crate) fn change_support(&mut self, model: &PatternModel) {
         let change = self.change.mirrored(&model.mirror);
         *self = Self { change, ..Self::new(model, &self.angles.mirrored(&model.mirror)) };
     }

@@ -9,7 +9,7 @@ use crate::preview_controller::PreviewController;
 /// The reference of the ZMP at the coming knots: under the support foot, less the part of the whole body's ZMP that the
 /// cart-table model leaves out. Computed anew when the footsteps change; else one knot is added as one is used.
 #[derive(Clone, Debug)]
-pub struct ZmpReference {
+pub(crate) struct ZmpReference {
     /// A ring of references in the walk frame (m); the next knot's is at `next`.
     zmps: [Vector2<f64>; KNOTS_PREVIEWED],
     next: usize,
@@ -19,14 +19,14 @@ pub struct ZmpReference {
 
 impl ZmpReference {
     /// The reference for the knots that follow a footstep plan's present one.
-    pub fn new(model: &PatternModel, footsteps: &FootstepPlan) -> Self {
+    pub(crate) fn new(model: &PatternModel, footsteps: &FootstepPlan) -> Self {
         let mut reference = Self { zmps: [Vector2::zeros(); KNOTS_PREVIEWED], next: 0, footsteps: footsteps.clone() };
         reference.restart(model, footsteps);
         reference
     }
 
     /// Computes all of it anew, from the present knot of a footstep plan.
-    pub fn restart(&mut self, model: &PatternModel, footsteps: &FootstepPlan) {
+    pub(crate) fn restart(&mut self, model: &PatternModel, footsteps: &FootstepPlan) {
         self.footsteps.clone_from(footsteps);
         for _ in 0..self.zmps.len() {
             self.advance(model);
@@ -34,7 +34,7 @@ impl ZmpReference {
     }
 
     /// Drops the reference of the next knot and adds one at the end.
-    pub fn advance(&mut self, model: &PatternModel) {
+    pub(crate) fn advance(&mut self, model: &PatternModel) {
         self.footsteps.advance(model);
         let FootstepPlan { gait_state, feet, .. } = &self.footsteps;
         let foot = feet.lift_off.position.xy() * (1.0 - gait_state.support_weight_share());
@@ -43,7 +43,7 @@ impl ZmpReference {
     }
 
     /// The sum of the references, each times its preview gain, along both axes of the walk frame.
-    pub fn weighted_sum(&self, controller: &PreviewController) -> Vector2<f64> {
+    pub(crate) fn weighted_sum(&self, controller: &PreviewController) -> Vector2<f64> {
         controller.weighted_sum(&self.zmps, self.next)
     }
 }

@@ -10,7 +10,7 @@ pub(crate) struct Loads(heapless::Vec<LinkLoad, { Joint::COUNT }>);
 
 impl Loads {
     /// Adds a load to those on its link.
-    pub fn add(&mut self, load: LinkLoad) {
+    pub(crate) fn add(&mut self, load: LinkLoad) {
         if let Some(present) = self.0.iter_mut().find(|present| present.link == load.link) {
             present.wrench = present.wrench + load.wrench;
             present.added_inertia += load.added_inertia;
@@ -21,13 +21,19 @@ impl Loads {
     }
 
     /// Adds a force (N) in world axes at a link's centre of mass.
-    pub fn add_force(&mut self, force: Vector3<f64>, link: Joint, mechanism: &Mechanism, body: &ArticulatedBody) {
+    pub(crate) fn add_force(
+        &mut self,
+        force: Vector3<f64>,
+        link: Joint,
+        mechanism: &Mechanism,
+        body: &ArticulatedBody,
+    ) {
         let com = body.kinematics.origin[link] + body.kinematics.rotation[link] * mechanism.links[link].body.com;
         self.add(LinkLoad { link, wrench: Wrench::at_point(force, com), added_inertia: Matrix6::zeros() });
     }
 
     /// All loads.
-    pub fn as_slice(&self) -> &[LinkLoad] {
+    pub(crate) fn as_slice(&self) -> &[LinkLoad] {
         &self.0
     }
 }

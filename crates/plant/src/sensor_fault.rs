@@ -82,7 +82,7 @@ pub(crate) struct FaultInjector {
 impl FaultInjector {
     /// The sample that arrives at the controller in the control period in which the sensors send `sent`; `period` is
     /// its length (s).
-    pub fn receive(&mut self, sent: Measurement, faults: &[SensorFault], period: f64) -> Measurement {
+    pub(crate) fn receive(&mut self, sent: Measurement, faults: &[SensorFault], period: f64) -> Measurement {
         if self.sent.is_full() {
             self.sent.pop_front();
         }

@@ -5,19 +5,19 @@ use std::fmt::Write;
 use wire::{Layout, NumberType};
 
 /// MCAP's name for the encoding of [`text`].
-pub const SCHEMA_ENCODING: &str = "ros2msg";
+pub(crate) const SCHEMA_ENCODING: &str = "ros2msg";
 /// MCAP's name for the encoding of [`HEAD`] followed by the bytes of a message.
-pub const MESSAGE_ENCODING: &str = "cdr";
+pub(crate) const MESSAGE_ENCODING: &str = "cdr";
 /// Comes before each message: CDR, little-endian. Fields are aligned from its end on, as in shared memory.
-pub const HEAD: [u8; 4] = [0, 1, 0, 0];
+pub(crate) const HEAD: [u8; 4] = [0, 1, 0, 0];
 
 /// Name of the message in ROS 2: `halfstep/msg/Setpoint`.
-pub fn name(layout: &Layout) -> String {
+pub(crate) fn name(layout: &Layout) -> String {
     format!("halfstep/msg/{}", layout.message.trim_end_matches("Message"))
 }
 
 /// The schema: a line that names the version of the layout, and one for each field.
-pub fn text(layout: &Layout) -> String {
+pub(crate) fn text(layout: &Layout) -> String {
     let mut text = format!("# {}\n", layout.type_name);
     for field in &layout.fields {
         let number = match field.number {

@@ -78,7 +78,7 @@ impl Period {
 
 /// The time on `CLOCK_MONOTONIC` (ns), the same in all processes of the machine.
 pub fn now_ns() -> u64 {
-    let now = clock_gettime(rustix::time::ClockId::Monotonic);
+    let now = clock_gettime(ClockId::Monotonic);
     // Neither part of a monotonic clock is ever negative.
     now.tv_sec as u64 * NS_PER_S + now.tv_nsec as u64
 }

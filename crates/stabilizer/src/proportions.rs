@@ -8,7 +8,7 @@ use nalgebra::Vector2;
 
 /// Lengths and forces that suit the size of the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Proportions {
+pub(crate) struct Proportions {
     /// Weight of the robot (N).
     pub weight: f64,
     /// Half of the sole's length and width (m).
@@ -46,7 +46,7 @@ const LANDING_LIFT_MAX: f64 = 0.03;
 
 impl Proportions {
     /// The proportions of a robot.
-    pub fn of(mechanism: &Mechanism) -> Self {
+    pub(crate) fn of(mechanism: &Mechanism) -> Self {
         let sole = &mechanism.sole;
         Self {
             weight: mechanism.mass() * GRAVITY,

@@ -7,7 +7,7 @@ use crate::jet::Jet;
 
 /// Writes the motion of the arms into `motion`. Over two half-steps the shoulders follow a cosine: they are extreme and
 /// at rest at the support change.
-pub fn swing_arms(mechanism: &Mechanism, parameters: &SynthesisParameters, progress: Jet, motion: &mut Motion) {
+pub(crate) fn swing_arms(mechanism: &Mechanism, parameters: &SynthesisParameters, progress: Jet, motion: &mut Motion) {
     let forward = (progress * std::f64::consts::PI).cos() * -parameters.arm_swing;
     // The right leg supports the robot and goes back, so the right arm comes forward.
     let bent = Jet::constant(parameters.elbow_flexion);

@@ -6,7 +6,7 @@ use crate::jet::Jet;
 
 /// A periodic function over a cycle from 0 to 1.
 #[derive(Clone, Debug)]
-pub struct FourierSeries {
+pub(crate) struct FourierSeries {
     /// Constant, then cosine and sine of each harmonic.
     coefficients: DVector<f64>,
 }
@@ -14,11 +14,11 @@ pub struct FourierSeries {
 /// Harmonics kept: the legs of walking people need no more (Winter 1990 cuts gait off at the sixth).
 const HARMONICS: usize = 6;
 /// Coefficients of a series; there must be more samples than that.
-pub const COEFFICIENTS: usize = 1 + 2 * HARMONICS;
+pub(crate) const COEFFICIENTS: usize = 1 + 2 * HARMONICS;
 
 impl FourierSeries {
     /// The best series through samples `(cycle, value)`; `None` when they do not determine one.
-    pub fn fit(samples: &[(f64, f64)]) -> Option<Self> {
+    pub(crate) fn fit(samples: &[(f64, f64)]) -> Option<Self> {
         let mut normal = DMatrix::zeros(COEFFICIENTS, COEFFICIENTS);
         let mut moments = DVector::zeros(COEFFICIENTS);
         for &(cycle, value) in samples {
@@ -35,7 +35,7 @@ impl FourierSeries {
     }
 
     /// The value at a point of the cycle, with derivatives.
-    pub fn at(&self, cycle: Jet) -> Jet {
+    pub(crate) fn at(&self, cycle: Jet) -> Jet {
         basis(cycle)
             .into_iter()
             .zip(self.coefficients.iter())

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 /// Value, first and second derivative in time of a quantity at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Jet {
+pub(crate) struct Jet {
     /// Value of the quantity (rad, m, -).
     pub value: f64,
     /// First derivative in time (rad/s, m/s, 1/s).
@@ -18,7 +18,7 @@ pub struct Jet {
 
 /// A moving point.
 #[derive(Clone, Copy, Debug)]
-pub struct PointMotion {
+pub(crate) struct PointMotion {
     /// Position of the point (m).
     pub position: Vector3<f64>,
     /// Velocity of the point (m/s).
@@ -28,12 +28,12 @@ pub struct PointMotion {
 }
 
 impl Jet {
-    pub const fn constant(value: f64) -> Self {
+    pub(crate) const fn constant(value: f64) -> Self {
         Self { value, rate: 0.0, acceleration: 0.0 }
     }
 
     /// `f` of this quantity, given the value and the two derivatives of `f` here.
-    pub fn chain(self, value: f64, first: f64, second: f64) -> Self {
+    pub(crate) fn chain(self, value: f64, first: f64, second: f64) -> Self {
         Self {
             value,
             rate: first * self.rate,
@@ -41,41 +41,41 @@ impl Jet {
         }
     }
 
-    pub fn cos(self) -> Self {
+    pub(crate) fn cos(self) -> Self {
         let (sine, cosine) = sin_cos(self.value);
         self.chain(cosine, -sine, -cosine)
     }
 
-    pub fn sin(self) -> Self {
+    pub(crate) fn sin(self) -> Self {
         let (sine, cosine) = sin_cos(self.value);
         self.chain(sine, cosine, -sine)
     }
 
-    pub fn sinh(self) -> Self {
+    pub(crate) fn sinh(self) -> Self {
         let (sinh, cosh) = sinh_cosh(self.value);
         self.chain(sinh, cosh, sinh)
     }
 
-    pub fn cosh(self) -> Self {
+    pub(crate) fn cosh(self) -> Self {
         let (sinh, cosh) = sinh_cosh(self.value);
         self.chain(cosh, sinh, cosh)
     }
 
     /// From 0 to 1 as the quantity goes from 0 to 1, with three derivatives zero at both ends.
-    pub fn smooth_step(self) -> Self {
+    pub(crate) fn smooth_step(self) -> Self {
         let square = self * self;
         square * square * (((self * -20.0 + 70.0) * self - 84.0) * self + 35.0)
     }
 
     /// From 0 over 1 in the middle back to 0 as the quantity goes from 0 to 1, with two derivatives zero at both ends.
-    pub fn bump(self) -> Self {
+    pub(crate) fn bump(self) -> Self {
         let arch = self * (-self + 1.0) * 4.0;
         arch * arch * arch
     }
 }
 
 impl PointMotion {
-    pub fn new(x: Jet, y: Jet, z: Jet) -> Self {
+    pub(crate) fn new(x: Jet, y: Jet, z: Jet) -> Self {
         Self {
             position: Vector3::new(x.value, y.value, z.value),
             velocity: Vector3::new(x.rate, y.rate, z.rate),
@@ -85,7 +85,7 @@ impl PointMotion {
 }
 
 /// Hyperbolic sine and cosine by their power series, the same bits on every machine; exact to rounding for |x| ≤ 4.
-pub fn sinh_cosh(x: f64) -> (f64, f64) {
+pub(crate) fn sinh_cosh(x: f64) -> (f64, f64) {
     const TERMS: u32 = 20;
     let square = x * x;
     let (mut sinh, mut cosh) = (1.0, 1.0);

@@ -8,7 +8,7 @@ use nalgebra::{Isometry3, Matrix6, Vector3, Vector6};
 const FIRST_BEND: [f64; 3] = [0.3, -0.6, 0.3];
 
 /// The first guess of inverse kinematics: both knees bent forward, on the right side of the stretched leg.
-pub fn first_guess(mechanism: &Mechanism) -> JointVector {
+pub(crate) fn first_guess(mechanism: &Mechanism) -> JointVector {
     let mut angles = JointVector::ZERO;
     for side in Side::BOTH {
         // From the pelvis down each rotation is reversed; the order of the bends is the same either way.
@@ -23,7 +23,7 @@ pub fn first_guess(mechanism: &Mechanism) -> JointVector {
 
 /// Position of the far end of a leg, and its motion relative to the near end.
 #[derive(Clone, Copy, Debug)]
-pub struct LegEnd {
+pub(crate) struct LegEnd {
     /// Position of the origin of the last link, in support coordinates (m).
     pub position: Vector3<f64>,
     /// Velocity relative to the leg's near end (m/s).
@@ -33,7 +33,7 @@ pub struct LegEnd {
 }
 
 /// Writes the motion of one leg into `motion`, whose angles are the first guess.
-pub fn move_leg(tree: &Tree, leg: Leg, end: &LegEnd, motion: &mut Motion) -> Result<(), Unreachable> {
+pub(crate) fn move_leg(tree: &Tree, leg: Leg, end: &LegEnd, motion: &mut Motion) -> Result<(), Unreachable> {
     let target = Isometry3::from(end.position);
     solve_leg(tree, leg, &target, &mut motion.angles)?;
 

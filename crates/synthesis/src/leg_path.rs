@@ -8,7 +8,7 @@ use model::{Joint, Mechanism};
 use crate::jet::{Jet, PointMotion};
 
 /// Paths over the progress of the half-step, which is a [`Jet`] from 0 to 1.
-pub trait LegPath {
+pub(crate) trait LegPath {
     /// Motion of the middle between the hip joints.
     fn pelvis(&self, progress: Jet) -> PointMotion;
 
@@ -17,6 +17,6 @@ pub trait LegPath {
 }
 
 /// Distance between the hip joints, and between the feet side by side (m).
-pub fn hip_distance(mechanism: &Mechanism) -> f64 {
+pub(crate) fn hip_distance(mechanism: &Mechanism) -> f64 {
     mechanism.links[Joint::LeftHipRoll].origin.y
 }

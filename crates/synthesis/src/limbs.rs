@@ -15,7 +15,7 @@ use crate::{SynthesisError, SynthesisParameters};
 ///
 /// # Errors
 /// A leg is too short, or inverse kinematics finds no angles.
-pub fn move_limbs(
+pub(crate) fn move_limbs(
     mechanism: &Mechanism,
     tree: &Tree,
     path: &dyn LegPath,

@@ -9,7 +9,7 @@ use crate::leg_path::{LegPath, hip_distance};
 /// The pelvis moves as the linear inverted pendulum over O does (Kajita 2001): x ∝ sinh, y = a + b·cosh; the swing foot
 /// on an arch which leaves the ground and meets it again vertically.
 #[derive(Clone, Copy, Debug)]
-pub struct PendulumPath {
+pub(crate) struct PendulumPath {
     /// The parameters of the half-step.
     pub parameters: SynthesisParameters,
     /// Distance between the hip joints (m).
@@ -20,21 +20,21 @@ pub struct PendulumPath {
 
 impl PendulumPath {
     /// The paths of a half-step with these parameters.
-    pub fn new(mechanism: &Mechanism, parameters: &SynthesisParameters) -> Self {
+    pub(crate) fn new(mechanism: &Mechanism, parameters: &SynthesisParameters) -> Self {
         let phase = (GRAVITY / parameters.pendulum_height).sqrt() * parameters.duration;
         Self { parameters: *parameters, hip_distance: hip_distance(mechanism), phase }
     }
 
     /// Lateral position of the pelvis, to the left of O (m): half-way between the feet at both ends, nearer to the
     /// support foot in the middle.
-    pub fn pelvis_y(&self, progress: Jet) -> Jet {
+    pub(crate) fn pelvis_y(&self, progress: Jet) -> Jet {
         let (_, cosh_at_end) = sinh_cosh(self.phase / 2.0);
         let excursion = ((progress - 0.5) * self.phase).cosh() - cosh_at_end;
         excursion * (self.parameters.pelvis_sway / (cosh_at_end - 1.0)) + self.hip_distance / 2.0
     }
 
     /// Motion of the swing sole at a share of its way forward and at a height (m).
-    pub fn swing_at(&self, share: Jet, height: Jet) -> PointMotion {
+    pub(crate) fn swing_at(&self, share: Jet, height: Jet) -> PointMotion {
         let forward = (share * 2.0 - 1.0) * self.parameters.step_length;
         PointMotion::new(forward, Jet::constant(self.hip_distance), height)
     }

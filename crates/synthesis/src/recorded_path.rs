@@ -18,7 +18,7 @@ const HEIGHT_SAMPLES: usize = 240;
 
 /// A recorded gait over one half-step.
 #[derive(Clone, Debug)]
-pub struct RecordedPath {
+pub(crate) struct RecordedPath {
     /// Provides what the recording lacks: step length, heights, lateral sway.
     pendulum: PendulumPath,
     /// Position of the hip ahead of the ankle, over the cycle (m).
@@ -36,7 +36,7 @@ impl RecordedPath {
     ///
     /// # Errors
     /// The recording does not determine a shape, goes backwards, or has its swing foot below the ground.
-    pub fn new(
+    pub(crate) fn new(
         mechanism: &Mechanism,
         pendulum: PendulumPath,
         recording: &GaitRecording,

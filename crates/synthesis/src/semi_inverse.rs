@@ -13,7 +13,7 @@ use crate::jet::Jet;
 use crate::spline::SplineBasis;
 
 /// The joints between pelvis and trunk; the mirror maps each to itself.
-pub const TRUNK_JOINTS: [Joint; 2] = [Joint::WaistPitch, Joint::WaistRoll];
+pub(crate) const TRUNK_JOINTS: [Joint; 2] = [Joint::WaistPitch, Joint::WaistRoll];
 
 /// Coefficients of each trunk joint's spline: for a recorded gait 14 leave the ZMP up to 2 mm from O, 32 a few
 /// hundredths of that.
@@ -25,7 +25,7 @@ const SETTLED: f64 = 1e-11;
 
 /// The motion of the trunk that balances the robot.
 #[derive(Clone, Debug)]
-pub struct TrunkMotion {
+pub(crate) struct TrunkMotion {
     basis: SplineBasis,
     /// Spline coefficients of both joints, one after the other (rad).
     coefficients: Vec<f64>,
@@ -35,7 +35,7 @@ pub struct TrunkMotion {
 
 impl TrunkMotion {
     /// Writes the motion of the trunk joints into `motion`.
-    pub fn apply(&self, progress: Jet, motion: &mut Motion) {
+    pub(crate) fn apply(&self, progress: Jet, motion: &mut Motion) {
         for (joint, coefficients) in TRUNK_JOINTS.into_iter().zip(self.coefficients.chunks(COEFFICIENTS)) {
             let Jet { value, rate, acceleration } = self.basis.evaluate(coefficients, progress);
             motion.angles[joint] = value;
@@ -49,7 +49,11 @@ impl TrunkMotion {
 ///
 /// # Errors
 /// [`SynthesisError::NotConverged`] when the iteration does not converge.
-pub fn balance_trunk(tree: &Tree, mirror: &Mirror, points: &[(Jet, Motion)]) -> Result<TrunkMotion, SynthesisError> {
+pub(crate) fn balance_trunk(
+    tree: &Tree,
+    mirror: &Mirror,
+    points: &[(Jet, Motion)],
+) -> Result<TrunkMotion, SynthesisError> {
     let basis = SplineBasis::new(COEFFICIENTS);
     let unknowns = TRUNK_JOINTS.len() * COEFFICIENTS;
     let ends = end_conditions(&basis, mirror);

@@ -9,7 +9,7 @@ const SPAN: usize = 6;
 
 /// The basis of splines with a given number of coefficients over progress 0 to 1.
 #[derive(Clone, Copy, Debug)]
-pub struct SplineBasis {
+pub(crate) struct SplineBasis {
     /// Number of polynomial pieces of a spline.
     pieces: usize,
 }
@@ -19,13 +19,13 @@ impl SplineBasis {
     ///
     /// # Panics
     /// With fewer than six coefficients.
-    pub fn new(coefficients: usize) -> Self {
+    pub(crate) fn new(coefficients: usize) -> Self {
         assert!(coefficients >= SPAN, "a quintic spline has at least {SPAN} coefficients");
         Self { pieces: coefficients - SPAN + 1 }
     }
 
     /// The coefficients whose basis functions are not zero at a progress, and the values of these functions there.
-    pub fn at(&self, progress: Jet) -> (Range<usize>, [Jet; SPAN]) {
+    pub(crate) fn at(&self, progress: Jet) -> (Range<usize>, [Jet; SPAN]) {
         let position = progress * self.pieces as f64;
         // The end belongs to the last piece.
         let piece = (position.value as usize).min(self.pieces - 1);
@@ -34,7 +34,7 @@ impl SplineBasis {
     }
 
     /// The value of the spline with the given coefficients at a progress.
-    pub fn evaluate(&self, coefficients: &[f64], progress: Jet) -> Jet {
+    pub(crate) fn evaluate(&self, coefficients: &[f64], progress: Jet) -> Jet {
         let (range, values) = self.at(progress);
         coefficients[range]
             .iter()

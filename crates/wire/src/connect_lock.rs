@@ -28,7 +28,7 @@ impl ConnectLock {
     ///
     /// # Errors
     /// The folder or the lock file cannot be created, or another process holds the lock for too long.
-    pub fn acquire(folder: &Path) -> Result<Self, Error> {
+    pub(crate) fn acquire(folder: &Path) -> Result<Self, Error> {
         let began = Instant::now();
         loop {
             match Self::try_acquire(folder) {

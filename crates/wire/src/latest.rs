@@ -36,7 +36,7 @@ pub(crate) struct LatestService<'a> {
 }
 
 impl<'a> LatestService<'a> {
-    pub fn open<M: Latest>(
+    pub(crate) fn open<M: Latest>(
         instance: &'a Instance,
         node: &Node<Ipc>,
         service: &'static str,
@@ -58,7 +58,7 @@ impl<'a> LatestService<'a> {
     }
 
     /// Creates the only writer, which makes this process the `role` of the instance.
-    pub fn writer<M: Latest>(&self, role: &'static str) -> Result<LatestWriter<M>, ConnectError> {
+    pub(crate) fn writer<M: Latest>(&self, role: &'static str) -> Result<LatestWriter<M>, ConnectError> {
         let taken = WriterCreateError::ExceedsMaxSupportedWriters;
         let create = || self.blackboard.writer_builder().create();
         let writer = self.contract.claim(role, taken, &self.blackboard, create)?;
@@ -73,7 +73,7 @@ impl<'a> LatestService<'a> {
         Err(ConnectError::UsedUp { service: self.contract.name.to_string(), writers: WRITER_SLOTS })
     }
 
-    pub fn reader<M: Latest>(&self) -> Result<LatestReader<M>, ConnectError> {
+    pub(crate) fn reader<M: Latest>(&self) -> Result<LatestReader<M>, ConnectError> {
         let reader = self
             .blackboard
             .reader_builder()

@@ -23,13 +23,13 @@ pub fn python_messages() -> String {
     let mut text = HEAD.to_owned();
     // A String takes everything.
     let _ = write!(text, "\nPROTOCOL = {PROTOCOL}\n\"\"\"The version of all layouts and meanings.\"\"\"\n");
-    text.push_str(&codes("Intent", "IntEnum", Intent::ALL, |code| code.code()));
-    text.push_str(&codes("Source", "IntEnum", Source::ALL, |code| code.code()));
-    text.push_str(&codes("Lifetime", "IntEnum", Lifetime::ALL, |code| code.code()));
-    text.push_str(&codes("Verdict", "IntEnum", Verdict::ALL, |code| code.code()));
-    text.push_str(&codes("Reason", "IntEnum", Reason::ALL, |code| code.code()));
-    text.push_str(&codes("Mode", "IntEnum", Mode::ALL, |code| code.code()));
-    text.push_str(&codes("Fault", "IntFlag", Fault::ALL, |code| code.code()));
+    text.push_str(&codes("Intent", "IntEnum", Intent::ALL, Intent::code));
+    text.push_str(&codes("Source", "IntEnum", Source::ALL, Source::code));
+    text.push_str(&codes("Lifetime", "IntEnum", Lifetime::ALL, Lifetime::code));
+    text.push_str(&codes("Verdict", "IntEnum", Verdict::ALL, Verdict::code));
+    text.push_str(&codes("Reason", "IntEnum", Reason::ALL, Reason::code));
+    text.push_str(&codes("Mode", "IntEnum", Mode::ALL, Mode::code));
+    text.push_str(&codes("Fault", "IntFlag", Fault::ALL, Fault::code));
     for layout in layouts() {
         text.push_str(&class(&layout));
     }

@@ -36,7 +36,7 @@ pub(crate) struct ServiceContract<'a> {
 
 impl<'a> ServiceContract<'a> {
     /// A service named `service`; `mechanism` is the fingerprint of the robot if the messages carry joint numbers.
-    pub fn new(
+    pub(crate) fn new(
         instance: &'a Instance,
         service: &'static str,
         pattern: MessagingPattern,
@@ -48,14 +48,14 @@ impl<'a> ServiceContract<'a> {
     }
 
     /// The same for a side that counts control periods: both must have the same rate.
-    pub fn at_rate(mut self) -> Self {
+    pub(crate) fn at_rate(mut self) -> Self {
         self.attributes.push((RATE, self.instance.rate_hz().to_string()));
         self
     }
 
     /// Opens the service if it exists and creates it otherwise, so that the order in which processes start does not
     /// matter.
-    pub fn open_or_create<P: PortFactory, O: Display, C: Display>(
+    pub(crate) fn open_or_create<P: PortFactory, O: Display, C: Display>(
         &self,
         open: impl Fn() -> Result<P, O>,
         create: impl Fn(&AttributeSpecifier) -> Result<P, C>,
@@ -71,7 +71,7 @@ impl<'a> ServiceContract<'a> {
     }
 
     /// Opens the service if it exists.
-    pub fn open<P: PortFactory, O: Display>(&self, open: impl Fn() -> Result<P, O>) -> Result<P, ConnectError> {
+    pub(crate) fn open<P: PortFactory, O: Display>(&self, open: impl Fn() -> Result<P, O>) -> Result<P, ConnectError> {
         self.retry(|| match open() {
             Ok(service) => self.check(service.attributes()).map(|()| service).map_err(Obstacle::Permanent),
             Err(cause) if self.exists()? => Err(self.temporary("open", cause)),
@@ -81,7 +81,7 @@ impl<'a> ServiceContract<'a> {
 
     /// Creates the only port of its kind, which makes this process the `role`. Its predecessor may take a moment to
     /// disconnect: then creating it fails with `taken` for a while.
-    pub fn claim<T, E: Display + PartialEq>(
+    pub(crate) fn claim<T, E: Display + PartialEq>(
         &self,
         role: &'static str,
         taken: E,
@@ -102,7 +102,7 @@ impl<'a> ServiceContract<'a> {
     }
 
     /// An error with the reason given by iceoryx2.
-    pub fn memory_error(&self, action: &'static str, cause: impl Display) -> ConnectError {
+    pub(crate) fn memory_error(&self, action: &'static str, cause: impl Display) -> ConnectError {
         ConnectError::Memory { action, what: self.name.to_string(), cause: cause.to_string() }
     }
 

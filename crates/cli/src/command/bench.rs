@@ -31,7 +31,7 @@ use crate::status::Status;
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "A time says something about the machine; the verdict is a ratio of two numbers of one run. \
 Nothing else should run meanwhile.")]
-pub struct BenchArgs {
+pub(super) struct BenchArgs {
     #[command(flatten)]
     config: ConfigOptions,
     /// Also write bench.html, with histograms, and bench.json into this folder
@@ -95,7 +95,7 @@ const TRIPS_AT_PACE: u64 = 500;
 const FLAT_OUT: u64 = 20_000;
 
 impl BenchArgs {
-    pub fn run(self, json: bool) -> Result<Status, CliError> {
+    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
         let report = match &self.what {
             What::Answer { instance, core, priority } => {
                 let scheduling = Scheduling { priority: *priority, ..awake_on(*core) };

@@ -22,7 +22,7 @@ use crate::status::Status;
 
 /// Validate all configuration files; list every error, or print a summary
 #[derive(Clone, Debug, clap::Args)]
-pub struct CheckArgs {
+pub(super) struct CheckArgs {
     #[command(flatten)]
     config: ConfigOptions,
 }
@@ -41,7 +41,7 @@ struct Facts {
 }
 
 impl CheckArgs {
-    pub fn run(self, json: bool) -> Result<Status, CliError> {
+    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
         let mut errors = Errors::default();
         let files = self.config.files();
         let robot = files.robot(&mut errors);

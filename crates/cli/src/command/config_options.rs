@@ -7,7 +7,7 @@ use node::configuration::ConfigFiles;
 
 /// Where the configuration lies.
 #[derive(Clone, Debug, clap::Args)]
-pub struct ConfigOptions {
+pub(super) struct ConfigOptions {
     /// Folder with mechanism.toml, nominal_half_step.csv, controller.toml, plant.toml and realtime.toml
     #[arg(long, value_name = "DIR", default_value = "config")]
     config: PathBuf,
@@ -21,13 +21,13 @@ pub struct ConfigOptions {
 
 impl ConfigOptions {
     /// Paths of the configuration files.
-    pub fn files(&self) -> ConfigFiles {
+    pub(super) fn files(&self) -> ConfigFiles {
         let Self { config, mechanism, nominal } = self.clone();
         ConfigFiles { folder: config, mechanism, nominal }
     }
 
     /// The same options as arguments for another process.
-    pub fn arguments(&self) -> Vec<OsString> {
+    pub(super) fn arguments(&self) -> Vec<OsString> {
         let files = [("--mechanism", &self.mechanism), ("--nominal", &self.nominal)];
         let files = files.into_iter().filter_map(|(option, file)| Some((option, file.as_ref()?)));
         [("--config", &self.config)]

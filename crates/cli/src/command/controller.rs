@@ -24,7 +24,7 @@ use crate::status::Status;
 
 /// Run the controller process: it waits for its plant, then walks until a request changes that
 #[derive(Clone, Debug, clap::Args)]
-pub struct ControllerArgs {
+pub(super) struct ControllerArgs {
     #[command(flatten)]
     instance: InstanceOption,
     #[command(flatten)]
@@ -41,7 +41,7 @@ const BRIDGE_BELOW: u8 = 1;
 const ADMISSION_BELOW: u8 = 2;
 
 impl ControllerArgs {
-    pub fn run(self, json: bool) -> Result<Status, CliError> {
+    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
         self.child.bind()?;
         let interrupt = Interrupt::listen()?;
 

@@ -4,7 +4,7 @@ use clap::ValueEnum;
 
 /// Physics engine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Engine {
+pub(super) enum Engine {
     /// The built-in plant
     #[default]
     Rust,
@@ -14,7 +14,7 @@ pub enum Engine {
 
 impl Engine {
     /// Name of the engine on the command line.
-    pub const fn name(self) -> &'static str {
+    pub(super) const fn name(self) -> &'static str {
         match self {
             Engine::Rust => "rust",
             Engine::Mujoco => "mujoco",

@@ -17,7 +17,7 @@ use crate::status::Status;
 
 /// Export the robot or the messages for other programs
 #[derive(Clone, Debug, clap::Args)]
-pub struct ExportArgs {
+pub(super) struct ExportArgs {
     #[command(subcommand)]
     format: Format,
 }
@@ -57,7 +57,7 @@ enum Format {
 }
 
 impl ExportArgs {
-    pub fn run(self) -> Result<Status, CliError> {
+    pub(super) fn run(self) -> Result<Status, CliError> {
         let (text, out) = match self.format {
             Format::Urdf { mechanism, out } => {
                 let mechanism = Mechanism::load(&mechanism).map_err(CliError::bad_input)?;

@@ -13,7 +13,7 @@ use crate::status::Status;
 
 /// Import a biped from its URDF into a configuration folder (without its nominal half-step)
 #[derive(Clone, Debug, clap::Args)]
-pub struct ImportArgs {
+pub(super) struct ImportArgs {
     /// URDF of the biped
     urdf: PathBuf,
     /// Joint map: URDF joints, soles and motors; see docs/import.md
@@ -39,7 +39,7 @@ struct ImportReport {
 }
 
 impl ImportArgs {
-    pub fn run(self, json: bool) -> Result<Status, CliError> {
+    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
         let (urdf, map) = (read(&self.urdf)?, read(&self.map)?);
         let (urdf_file, map_file) = (self.urdf.display().to_string(), self.map.display().to_string());
         let imported = import(NamedText { text: &urdf, file: &urdf_file }, NamedText { text: &map, file: &map_file })?;
@@ -66,9 +66,9 @@ impl ImportArgs {
             written,
         };
         if json {
-            print_json(&report)?
+            print_json(&report)?;
         } else {
-            print_line(in_words(&report))?
+            print_line(in_words(&report))?;
         }
         Ok(Status::Success)
     }

@@ -25,7 +25,7 @@ use crate::status::Status;
 /// Online gait modification for a 20-joint biped.
 #[derive(Debug, Parser)]
 #[command(version, about)]
-pub struct Halfstep {
+pub(crate) struct Halfstep {
     #[command(subcommand)]
     command: HalfstepCommand,
     /// Print results as JSON on stdout
@@ -55,7 +55,7 @@ impl Halfstep {
     ///
     /// # Errors
     /// The command line or an input file is wrong, or the command failed.
-    pub fn run(self) -> Result<Status, CliError> {
+    pub(crate) fn run(self) -> Result<Status, CliError> {
         let json = self.json;
         match self.command {
             HalfstepCommand::Walk(args) => args.run(json),

@@ -13,25 +13,25 @@ use crate::process::end_with_parent;
 
 /// Which robot to talk to.
 #[derive(Clone, Debug, Args)]
-pub struct InstanceOption {
+pub(super) struct InstanceOption {
     /// Instance name of the robot: 1 to 32 of a–z, 0–9, _ and -
     #[arg(long, global = true, value_name = "NAME", default_value = "default")]
     pub instance: InstanceName,
 }
 
 impl InstanceOption {
-    pub fn instance(&self) -> Result<Instance, CliError> {
+    pub(super) fn instance(&self) -> Result<Instance, CliError> {
         Ok(Instance::new(self.instance.as_str())?)
     }
 
-    pub fn at_rate(&self, rate: Rate) -> Result<Instance, CliError> {
+    pub(super) fn at_rate(&self, rate: Rate) -> Result<Instance, CliError> {
         Ok(self.instance()?.with_rate_hz(rate.hz()))
     }
 }
 
 /// Duration and clock of a loop.
 #[derive(Clone, Debug, Args)]
-pub struct LoopOptions {
+pub(super) struct LoopOptions {
     /// End after this time, e.g. 20s or 2min [default: run until Ctrl-C]
     #[arg(long = "for", value_name = "DURATION", value_parser = duration)]
     pub duration: Option<Duration>,
@@ -44,16 +44,16 @@ pub struct LoopOptions {
 }
 
 impl LoopOptions {
-    pub fn ticks(&self, rate: Rate) -> Option<u64> {
+    pub(super) fn ticks(&self, rate: Rate) -> Option<u64> {
         self.duration.map(|duration| rate.ticks(duration).max(1))
     }
 
-    pub fn clock(&self) -> Clock {
+    pub(super) fn clock(&self) -> Clock {
         if self.lockstep { Clock::Lockstep } else { Clock::Realtime }
     }
 
     /// How the process was started, as entries for its recording.
-    pub fn words(&self, instance: &InstanceOption, rate: Rate, fingerprint: u64) -> [(&'static str, String); 7] {
+    pub(super) fn words(&self, instance: &InstanceOption, rate: Rate, fingerprint: u64) -> [(&'static str, String); 7] {
         [
             ("version", env!("CARGO_PKG_VERSION").to_owned()),
             ("protocol", wire::PROTOCOL.to_string()),
@@ -68,7 +68,7 @@ impl LoopOptions {
 
 /// Options of processes that `walk` starts.
 #[derive(Clone, Debug, Args)]
-pub struct ChildOptions {
+pub(super) struct ChildOptions {
     /// Record the run into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -78,7 +78,7 @@ pub struct ChildOptions {
 }
 
 impl ChildOptions {
-    pub fn bind(&self) -> Result<(), CliError> {
+    pub(super) fn bind(&self) -> Result<(), CliError> {
         self.parent.map_or(Ok(()), end_with_parent)
     }
 }
@@ -86,7 +86,7 @@ impl ChildOptions {
 /// Shortest duration that is accepted: a shorter one is a mistake.
 const DURATION_MIN: Duration = Duration::from_millis(1);
 
-pub fn duration(text: &str) -> Result<Duration, String> {
+pub(super) fn duration(text: &str) -> Result<Duration, String> {
     let duration = humantime::parse_duration(text).map_err(|error| format!("{error}; write e.g. 20s or 2min"))?;
     if duration < DURATION_MIN { Err("must be at least 1ms".to_owned()) } else { Ok(duration) }
 }

@@ -15,7 +15,7 @@ use crate::status::Status;
 
 /// Reproduce the paper's walking figures: footprints, ZMP and verdict, beside the paper's
 #[derive(Clone, Debug, clap::Args)]
-pub struct PaperArgs {
+pub(super) struct PaperArgs {
     /// Only this figure
     #[arg(long, value_name = "N")]
     figure: Option<u64>,
@@ -33,7 +33,7 @@ pub struct PaperArgs {
 }
 
 impl PaperArgs {
-    pub fn run(self, json: bool) -> Result<Status, CliError> {
+    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
         let mut errors = Errors::default();
         let files = self.config.files();
         let robot = files.robot(&mut errors);

@@ -26,7 +26,7 @@ use crate::status::Status;
 
 /// Run the simulated robot: it holds its initial pose until the first setpoint arrives
 #[derive(Clone, Debug, clap::Args)]
-pub struct PlantArgs {
+pub(super) struct PlantArgs {
     #[command(flatten)]
     instance: InstanceOption,
     #[command(flatten)]
@@ -50,7 +50,7 @@ pub struct PlantArgs {
 }
 
 impl PlantArgs {
-    pub fn run(self, json: bool) -> Result<Status, CliError> {
+    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
         self.child.bind()?;
         let interrupt = Interrupt::listen()?;
 

@@ -16,7 +16,7 @@ use crate::status::Status;
 
 /// Draw the plots of a recorded run
 #[derive(Clone, Debug, clap::Args)]
-pub struct PlotArgs {
+pub(super) struct PlotArgs {
     /// A recording, or the folder of a run
     #[arg(value_name = "RUN")]
     run: PathBuf,
@@ -36,7 +36,7 @@ struct PlotFiles {
 }
 
 impl PlotArgs {
-    pub fn run(self, json: bool) -> Result<Status, CliError> {
+    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
         let origin = provenance_of(&self.run)?;
         let run = self.run.display();
         let text =

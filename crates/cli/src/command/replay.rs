@@ -10,14 +10,14 @@ use crate::status::Status;
 
 /// Re-run the controller on the recorded inputs, and report the first setpoint that differs in any bit
 #[derive(Clone, Debug, clap::Args)]
-pub struct ReplayArgs {
+pub(super) struct ReplayArgs {
     /// A recording, or the folder of a run
     #[arg(value_name = "RUN")]
     run: PathBuf,
 }
 
 impl ReplayArgs {
-    pub fn run(self, json: bool) -> Result<Status, CliError> {
+    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
         let outcome = replay(&self.run)?;
         print(json, &outcome)?;
         Ok(Status::success_if(outcome.is_identical()))

@@ -17,7 +17,7 @@ use crate::status::Status;
 
 /// Send a request to a running controller and print the reply
 #[derive(Clone, Debug, clap::Args)]
-pub struct SendArgs {
+pub(super) struct SendArgs {
     #[command(flatten)]
     instance: InstanceOption,
     /// Hold control authority for this long, e.g. 5s: lower-priority sources are refused, and the robot stops when it
@@ -64,7 +64,7 @@ enum RequestKind {
 const REPLY_TIMEOUT: Duration = Duration::from_secs(2);
 
 impl SendArgs {
-    pub fn run(self, json: bool) -> Result<Status, CliError> {
+    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
         let request = match self.duration {
             None => self.request.message(),
             Some(duration) => Request {
@@ -76,9 +76,9 @@ impl SendArgs {
         let operator = OperatorPorts::connect(&self.instance.instance()?)?;
         let reply = operator.requests.ask(&(&request).into(), REPLY_TIMEOUT)?.checked().map_err(CliError::new)?;
         if json {
-            print_json(&ReplyJson::from(&reply))?
+            print_json(&ReplyJson::from(&reply))?;
         } else {
-            print_line(reply_text(&request, &reply))?
+            print_line(reply_text(&request, &reply))?;
         }
         Ok(Status::success_if(reply.verdict != Verdict::Refused))
     }

@@ -25,7 +25,7 @@ once; the others as needed. A line that is wrong is reported with its number, an
 While the stream is open it is in command, also between two lines: sources with less priority are refused. If it is \
 killed or interrupted, the walk comes to a stand after the age limit. At the end of the input it takes its leave: what it \
 asked lasts until another request changes it, unless --stop-at-end.")]
-pub struct StreamArgs {
+pub(super) struct StreamArgs {
     #[command(flatten)]
     instance: InstanceOption,
     /// File with one JSON object per line; - is stdin
@@ -60,9 +60,9 @@ struct LineError {
 }
 
 impl StreamArgs {
-    pub fn run(self, json: bool) -> Result<Status, CliError> {
+    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
         let interrupt = Interrupt::listen()?;
-        let (name, source): (&str, Box<dyn Read + std::marker::Send>) = match self.file.as_str() {
+        let (name, source): (&str, Box<dyn Read + Send>) = match self.file.as_str() {
             "-" => ("stdin", Box::new(std::io::stdin())),
             file => {
                 (file, Box::new(File::open(file).map_err(|error| CliError::bad_input(format!("{file}: {error}")))?))
@@ -115,7 +115,7 @@ fn print_error(json: bool, error: &ScriptError) -> Result<(), CliError> {
 }
 
 /// Reads lines in a thread of its own: a blocking read cannot be cancelled.
-fn lines(source: Box<dyn Read + std::marker::Send>) -> Result<Receiver<std::io::Result<String>>, CliError> {
+fn lines(source: Box<dyn Read + Send>) -> Result<Receiver<std::io::Result<String>>, CliError> {
     let (sender, lines) = mpsc::sync_channel(1);
     let read = move || {
         for line in BufReader::new(source).lines() {

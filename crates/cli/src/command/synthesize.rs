@@ -16,7 +16,7 @@ use crate::status::Status;
 
 /// Synthesize the nominal half-step: prescribed or recorded legs, and the trunk that keeps the ZMP under the ankle
 #[derive(Clone, Debug, clap::Args)]
-pub struct SynthesizeArgs {
+pub(super) struct SynthesizeArgs {
     /// Robot description
     #[arg(long, value_name = "FILE", default_value = "config/mechanism.toml")]
     mechanism: PathBuf,
@@ -83,7 +83,7 @@ struct SynthesisJson {
 }
 
 impl SynthesizeArgs {
-    pub fn run(self, json: bool) -> Result<Status, CliError> {
+    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
         let mechanism = Mechanism::load(&self.mechanism).map_err(CliError::bad_input)?;
         let pattern = match &self.recorded {
             None => LegPattern::Pendulum,

@@ -32,7 +32,7 @@ use crate::walk_summary::WalkSummary;
 
 /// Walk: run controller and plant, send commands from a script, record the run and plot it
 #[derive(Clone, Debug, clap::Args)]
-pub struct WalkArgs {
+pub(super) struct WalkArgs {
     #[command(flatten)]
     config: ConfigOptions,
     #[command(flatten)]
@@ -75,7 +75,7 @@ struct Walking {
 }
 
 impl WalkArgs {
-    pub fn run(self, json: bool) -> Result<Status, CliError> {
+    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
         let interrupt = Interrupt::listen()?;
         let mut errors = Errors::default();
         let files = self.config.files();

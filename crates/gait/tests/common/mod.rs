@@ -18,13 +18,13 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
 /// `T` (s).
-pub const DURATION: f64 = 0.6;
+pub(crate) const DURATION: f64 = 0.6;
 /// Largest roll of the support leg in the synthetic half-step (rad).
-pub const SWAY: f64 = 0.05;
+pub(crate) const SWAY: f64 = 0.05;
 
 /// The gait parameters of these tests: quintic ramps, changes of speed over one half-step, the range of the paper's
 /// figures. The committed ones are wider; no statement here depends on them.
-pub fn parameters() -> GaitParameters {
+pub(crate) fn parameters() -> GaitParameters {
     let limits = Limits {
         turn_max: 30_f64.to_radians(),
         speed_min: 0.6,
@@ -36,24 +36,24 @@ pub fn parameters() -> GaitParameters {
 }
 
 /// The robot of `config/mechanism.toml`.
-pub fn mechanism() -> Mechanism {
+pub(crate) fn mechanism() -> Mechanism {
     Mechanism::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism.toml")).expect("the committed file")
 }
 
 /// The same body with roll and pitch of ankles and waist exchanged.
-pub fn other_reading() -> Mechanism {
+pub(crate) fn other_reading() -> Mechanism {
     Mechanism::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism_other_reading.toml"))
         .expect("the committed file")
 }
 
 /// The synthetic half-step with 24 intervals.
-pub fn table(mechanism: &Mechanism) -> NominalTable {
+pub(crate) fn table(mechanism: &Mechanism) -> NominalTable {
     let rows = (0..=24).map(|row| nominal_row(mechanism, DURATION * f64::from(row) / 24.0)).collect();
     NominalTable { duration: DURATION, rows, made_by: "a test's sines".into(), mechanism: mechanism.fingerprint }
 }
 
 /// A walk from the synthetic half-step.
-pub fn walk(parameters: &GaitParameters, support: Side, command: Command) -> Walk {
+pub(crate) fn walk(parameters: &GaitParameters, support: Side, command: Command) -> Walk {
     let mechanism = mechanism();
     let table = Arc::new(table(&mechanism));
     Walk::new(table, &mechanism, parameters, Start { support, command }).expect("a valid walk")
@@ -121,7 +121,7 @@ fn roll_of(mechanism: &Mechanism, one: Joint, other: Joint) -> Joint {
 }
 
 /// The left sole in the frame of the right sole, which is the support frame when the foot is flat.
-pub fn left_sole_to_right_sole(mechanism: &Mechanism, angles: &JointVector) -> Isometry3<f64> {
+pub(crate) fn left_sole_to_right_sole(mechanism: &Mechanism, angles: &JointVector) -> Isometry3<f64> {
     let mut link_to_support = PerJoint([Isometry3::identity(); Joint::COUNT]);
     for joint in Joint::ALL {
         let link = &mechanism.links[joint];
@@ -134,20 +134,20 @@ pub fn left_sole_to_right_sole(mechanism: &Mechanism, angles: &JointVector) -> I
 }
 
 /// Angle between a sole's normal and the vertical (rad).
-pub fn tilt(sole: &Isometry3<f64>) -> f64 {
+pub(crate) fn tilt(sole: &Isometry3<f64>) -> f64 {
     let normal = sole.rotation * Vector3::z();
     normal.xy().norm().atan2(normal.z)
 }
 
 /// Which way a sole points, from x to y (rad).
-pub fn heading(sole: &Isometry3<f64>) -> f64 {
+pub(crate) fn heading(sole: &Isometry3<f64>) -> f64 {
     let forward = sole.rotation * Vector3::x();
     forward.y.atan2(forward.x)
 }
 
 /// Requests as an operator might send them, at random times (ticks until the next); some outside the limits, some not
 /// even numbers.
-pub fn streams() -> impl Strategy<Value = Vec<(u32, GaitChange)>> {
+pub(crate) fn streams() -> impl Strategy<Value = Vec<(u32, GaitChange)>> {
     prop::collection::vec((1_u32..900, requests()), 1..12)
 }
 

@@ -27,11 +27,11 @@ pub(super) struct FileErrors<'f> {
 }
 
 impl FileErrors<'_> {
-    pub fn note(&mut self, error: impl std::fmt::Display) {
+    pub(super) fn note(&mut self, error: impl std::fmt::Display) {
         self.errors.push(format!("{}: {error}", self.file));
     }
 
-    pub fn finish<T>(self, loaded: Option<T>) -> Result<T, ImportError> {
+    pub(super) fn finish<T>(self, loaded: Option<T>) -> Result<T, ImportError> {
         match loaded {
             Some(loaded) if self.errors.is_empty() => Ok(loaded),
             _ => Err(ImportError(self.errors.join("\n"))),

@@ -10,7 +10,7 @@ use crate::import::file_errors::FileErrors;
 
 /// Poses of links and axes of joints of a URDF in the straight posture.
 #[derive(Clone, Debug)]
-pub struct LinkPoses {
+pub(super) struct LinkPoses {
     /// Maps link to root coordinates, for each of the URDF's links.
     pub link_to_root: Vec<Isometry3<f64>>,
     /// Origin (m) and axis of the child link in root coordinates, for each of the URDF's joints.
@@ -20,7 +20,7 @@ pub struct LinkPoses {
 }
 
 /// Computes the poses; notes where the URDF is no tree.
-pub fn straight(robot: &Robot, map: &JointMap, errors: &mut FileErrors) -> Option<LinkPoses> {
+pub(super) fn straight(robot: &Robot, map: &JointMap, errors: &mut FileErrors) -> Option<LinkPoses> {
     let index: HashMap<&str, usize> = robot.links.iter().enumerate().map(|(i, link)| (link.name.as_str(), i)).collect();
     let mut find = |joint: &str, link: &str| {
         let found = index.get(link).copied();
@@ -81,7 +81,7 @@ fn angles(robot: &Robot, map: &JointMap) -> Vec<f64> {
 }
 
 /// Converts a URDF pose: a rotation about the fixed axes x, y, z by roll, pitch, yaw, then a translation.
-pub fn isometry(pose: &Pose) -> Isometry3<f64> {
+pub(super) fn isometry(pose: &Pose) -> Isometry3<f64> {
     let [roll, pitch, yaw] = pose.rpy.0;
     Isometry3::from_parts(
         Translation3::from(Vector3::from(pose.xyz.0)),

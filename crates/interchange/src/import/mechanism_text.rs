@@ -14,7 +14,7 @@ const PER_UNIT: f64 = 1e9;
 const PER_FINE_UNIT: f64 = 1e12;
 
 /// Writes the file's text.
-pub fn write(biped: &StraightBiped, map: &JointMap, urdf_file: &str) -> String {
+pub(super) fn write(biped: &StraightBiped, map: &JointMap, urdf_file: &str) -> String {
     let mut text = format!(
         "# Made by `halfstep import` from {urdf_file}.\n# Frames, units and signs: as in Halfstep's own \
          config/mechanism.toml.\n\nname = {}\n",

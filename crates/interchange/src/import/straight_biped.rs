@@ -10,7 +10,7 @@ use crate::import::link_poses::isometry;
 
 /// A biped in its straight posture, in the frame of the URDF's root link.
 #[derive(Clone, Debug)]
-pub struct StraightBiped {
+pub(super) struct StraightBiped {
     /// The mechanism's powered joints; the two unpowered ones are unused.
     pub hinges: PerJoint<Hinge>,
     /// Mass and inertia of the link that each joint carries.
@@ -21,7 +21,7 @@ pub struct StraightBiped {
 
 /// A powered joint as a point and an axis.
 #[derive(Clone, Copy, Debug)]
-pub struct Hinge {
+pub(super) struct Hinge {
     /// The joint whose link this one is mounted on.
     pub parent: Joint,
     /// A point on the axis (m).
@@ -36,7 +36,7 @@ pub struct Hinge {
 
 /// Mass and inertia of rigidly connected links of the URDF.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct LumpedBody {
+pub(super) struct LumpedBody {
     /// Mass (kg).
     pub mass: f64,
     /// Centre of mass (m).
@@ -59,7 +59,7 @@ impl Default for Hinge {
 
 impl LumpedBody {
     /// Mass and inertia of a link of the URDF.
-    pub fn of_link(inertial: &Inertial, link_to_root: &Isometry3<f64>) -> Self {
+    pub(super) fn of_link(inertial: &Inertial, link_to_root: &Isometry3<f64>) -> Self {
         let pose = link_to_root * isometry(&inertial.origin);
         let urdf_rs::Inertia { ixx, ixy, ixz, iyy, iyz, izz } = inertial.inertia.clone();
         let inertia = Matrix3::new(ixx, ixy, ixz, ixy, iyy, iyz, ixz, iyz, izz);
@@ -68,7 +68,7 @@ impl LumpedBody {
     }
 
     /// Combines two bodies into one rigid body (Steiner).
-    pub fn with(&self, other: &LumpedBody) -> LumpedBody {
+    pub(super) fn with(&self, other: &LumpedBody) -> LumpedBody {
         let mass = self.mass + other.mass;
         if mass == 0.0 {
             return LumpedBody { inertia: self.inertia + other.inertia, ..*self };
@@ -82,7 +82,7 @@ impl LumpedBody {
     }
 
     /// The greatest product of inertia as a share of the greatest moment.
-    pub fn products_share(&self) -> f64 {
+    pub(super) fn products_share(&self) -> f64 {
         let [xy, xz, yz] = [(0, 1), (0, 2), (1, 2)].map(|place| self.inertia[place].abs());
         let greatest = self.inertia.diagonal().max();
         if greatest > 0.0 { xy.max(xz).max(yz) / greatest } else { 0.0 }
@@ -112,11 +112,11 @@ impl StraightBiped {
 }
 
 /// Name of the link that a joint carries, for messages.
-pub fn carried(joint: Joint) -> String {
+pub(super) fn carried(joint: Joint) -> String {
     joint.link_name().map_or_else(|| format!("the link on {}", joint.name()), str::to_owned)
 }
 
 /// A number rounded up to a few decimals.
-pub fn up(value: f64, per_unit: f64) -> f64 {
+pub(super) fn up(value: f64, per_unit: f64) -> f64 {
     (value * per_unit).ceil() / per_unit
 }

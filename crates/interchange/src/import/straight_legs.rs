@@ -14,7 +14,12 @@ use crate::import::straight_biped::{StraightBiped, up};
 const ROUNDING: f64 = 1e-9;
 
 /// Moves the axes of both legs.
-pub fn straighten(biped: &mut StraightBiped, idealise: &Idealise, errors: &mut FileErrors, changes: &mut Vec<String>) {
+pub(super) fn straighten(
+    biped: &mut StraightBiped,
+    idealise: &Idealise,
+    errors: &mut FileErrors,
+    changes: &mut Vec<String>,
+) {
     for side in Side::BOTH {
         let [ankle_roll, ankle_pitch, knee, hip_pitch, hip_yaw, hip_roll] = leg(side);
         let place = |joint: Joint| biped.hinges[joint].place;

@@ -11,7 +11,12 @@ use crate::import::straight_biped::{LumpedBody, StraightBiped, carried, up};
 const ROUNDING: f64 = 1e-9;
 
 /// Puts the sagittal plane at y = 0 and makes both sides alike, as far as that is allowed.
-pub fn symmetrise(biped: &mut StraightBiped, idealise: &Idealise, errors: &mut FileErrors, changes: &mut Vec<String>) {
+pub(super) fn symmetrise(
+    biped: &mut StraightBiped,
+    idealise: &Idealise,
+    errors: &mut FileErrors,
+    changes: &mut Vec<String>,
+) {
     let plane = 0.5 * (biped.hinges[Joint::RightHipYaw].place.y + biped.hinges[Joint::LeftHipYaw].place.y);
     for joint in Joint::ALL {
         biped.hinges[joint].place.y -= plane;

@@ -16,7 +16,7 @@ const AXIS_OFF: f64 = 1e-4;
 const NO_LOAD_SHARE: f64 = 0.85;
 
 /// Converts the robot to a biped; notes where its tree, axes, masses or ranges do not fit a mechanism.
-pub fn straight_biped(
+pub(super) fn straight_biped(
     robot: &Robot,
     map: &JointMap,
     poses: &LinkPoses,

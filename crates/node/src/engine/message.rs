@@ -6,16 +6,16 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use plant::{EngineState, RobotState};
 
 /// Numbers in a setpoint: angles (rad), rates (rad/s) and feed-forward torques (N·m) of the 20 joints.
-pub const SETPOINT_LEN: usize = 3 * Joint::COUNT;
+pub(super) const SETPOINT_LEN: usize = 3 * Joint::COUNT;
 /// Numbers in a state: of the right sole position, quaternion w x y z, angular rate, velocity; of the joints angles and
 /// rates; of the ground force and moment on the right and on the left foot, about the right sole's origin; motor torques.
 /// All but the joints' in world axes, in SI units.
-pub const STATE_LEN: usize = 3 + 4 + 3 + 3 + 2 * Joint::COUNT + 2 * 6 + Joint::COUNT;
+pub(super) const STATE_LEN: usize = 3 + 4 + 3 + 3 + 2 * Joint::COUNT + 2 * 6 + Joint::COUNT;
 
 const SIZE: usize = size_of::<f64>();
 
 /// Encodes a setpoint.
-pub fn encode_setpoint(setpoint: &Setpoint) -> [u8; SETPOINT_LEN * SIZE] {
+pub(super) fn encode_setpoint(setpoint: &Setpoint) -> [u8; SETPOINT_LEN * SIZE] {
     let mut bytes = [0; SETPOINT_LEN * SIZE];
     let values = [&setpoint.angles, &setpoint.rates, &setpoint.feed_forward];
     let values = values.into_iter().flat_map(|joints| joints.0);
@@ -26,7 +26,7 @@ pub fn encode_setpoint(setpoint: &Setpoint) -> [u8; SETPOINT_LEN * SIZE] {
 }
 
 /// Decodes a state; `None` if a number in it is not finite or its quaternion is no rotation.
-pub fn decode_state(bytes: &[u8; STATE_LEN * SIZE]) -> Option<EngineState> {
+pub(super) fn decode_state(bytes: &[u8; STATE_LEN * SIZE]) -> Option<EngineState> {
     let mut values = bytes.as_chunks::<SIZE>().0.iter().map(|bytes| f64::from_le_bytes(*bytes));
     if values.clone().any(|value| !value.is_finite()) {
         return None;

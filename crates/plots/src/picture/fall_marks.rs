@@ -12,21 +12,21 @@ const UNAVOIDABLE: Pen = Pen::dashed(FALL, 2.2);
 const ARM: f64 = 0.03;
 
 /// Marks for the first fall of a run, if the robot fell.
-pub struct FallMarks(Option<Fall>);
+pub(super) struct FallMarks(Option<Fall>);
 
 impl FallMarks {
     /// Marks for the first fall of a run.
-    pub fn of(log: &RunLog, mechanism: &Mechanism) -> Self {
+    pub(super) fn of(log: &RunLog, mechanism: &Mechanism) -> Self {
         Self(log.first_fall(mechanism))
     }
 
     /// The fall as an addition to a picture's title; empty without a fall.
-    pub fn title(&self) -> String {
+    pub(super) fn title(&self) -> String {
         self.0.map_or(String::new(), |fall| format!("; it fell at {:.2} s", fall.time_s))
     }
 
     /// The label of the lowest axis, which after a fall also explains what unavoidable means.
-    pub fn axis_label(&self, quantity: &str) -> String {
+    pub(super) fn axis_label(&self, quantity: &str) -> String {
         match self.0.and_then(|fall| fall.unavoidable_s) {
             Some(_) => format!("{quantity}; unavoidable: divergent comp. off the soles for good"),
             None => quantity.to_owned(),
@@ -34,7 +34,7 @@ impl FallMarks {
     }
 
     /// Draws lines across a panel over time.
-    pub fn draw_over_time(&self, chart: &mut Chart, (bottom, top): (f64, f64)) {
+    pub(super) fn draw_over_time(&self, chart: &mut Chart, (bottom, top): (f64, f64)) {
         let Some(fall) = self.0 else { return };
         let mut line = |time: f64, pen| chart.line([[time, bottom], [time, top]], pen);
         line(fall.time_s, FELL);
@@ -45,7 +45,7 @@ impl FallMarks {
 
     /// Draws a cross on the floor where the centre of mass was at the fall, and a diamond where the capture point left the
     /// soles.
-    pub fn draw_on_floor(&self, chart: &mut Chart, log: &RunLog) {
+    pub(super) fn draw_on_floor(&self, chart: &mut Chart, log: &RunLog) {
         let Some(fall) = self.0 else { return };
         if let Some(row) = log.plant_at(fall.time_s) {
             let [x, y] = [row.com_in_world.x, row.com_in_world.y];
@@ -61,7 +61,7 @@ impl FallMarks {
     }
 
     /// Adds the lines to a legend.
-    pub fn key_over_time(&self, chart: &mut Chart) {
+    pub(super) fn key_over_time(&self, chart: &mut Chart) {
         let Some(fall) = self.0 else { return };
         chart.key_line("fell", FELL);
         if let Some(time) = fall.unavoidable_s {
@@ -70,7 +70,7 @@ impl FallMarks {
     }
 
     /// Adds the marks on the floor to a legend.
-    pub fn key_on_floor(&self, chart: &mut Chart) {
+    pub(super) fn key_on_floor(&self, chart: &mut Chart) {
         let Some(fall) = self.0 else { return };
         chart.key_line("cross: it fell, centre of mass", FELL);
         if fall.unavoidable_s.is_some() {

@@ -16,7 +16,7 @@ const BODY: Pen = Pen::solid("#444444", 1.3);
 const HEAD_RADIUS: f64 = 0.09;
 
 /// Draws the robot as `onto` projects its points; its right limbs come last, over the others.
-pub fn draw_stick_figure(
+pub(super) fn draw_stick_figure(
     chart: &mut Chart,
     mechanism: &Mechanism,
     kinematics: &Kinematics,
@@ -45,7 +45,7 @@ pub fn draw_stick_figure(
 }
 
 /// Points of a closed circle.
-pub fn circle([x, y]: Point, radius: f64) -> impl Iterator<Item = Point> {
+pub(super) fn circle([x, y]: Point, radius: f64) -> impl Iterator<Item = Point> {
     (0..=24).map(move |corner| {
         let angle = TAU * f64::from(corner) / 24.0;
         [x + radius * angle.cos(), y + radius * angle.sin()]
@@ -53,7 +53,7 @@ pub fn circle([x, y]: Point, radius: f64) -> impl Iterator<Item = Point> {
 }
 
 /// Adds the colours of the limbs to the legend.
-pub fn key_sticks(chart: &mut Chart) {
+pub(super) fn key_sticks(chart: &mut Chart) {
     chart.key_line("right limbs", RIGHT_LIMBS);
     chart.key_line("left limbs", LEFT_LIMBS);
     chart.key_line("trunk", BODY);

@@ -8,7 +8,7 @@ const STRETCH: f64 = 4.0;
 const AFTER_FALL: f64 = 0.4;
 
 /// Start and end of some seconds in the middle of the walk, or up to its first fall (s).
-pub fn stretch(log: &RunLog) -> (f64, f64) {
+pub(super) fn stretch(log: &RunLog) -> (f64, f64) {
     let (Some(first), Some(last)) = (log.plant.first(), log.plant.last()) else { return (0.0, STRETCH) };
     let end = match log.falls().next() {
         Some(fall) => fall + AFTER_FALL,
@@ -18,7 +18,7 @@ pub fn stretch(log: &RunLog) -> (f64, f64) {
 }
 
 /// The plant's rows in a stretch of time.
-pub fn rows_between(log: &RunLog, (from, to): (f64, f64)) -> &[PlantRow] {
+pub(super) fn rows_between(log: &RunLog, (from, to): (f64, f64)) -> &[PlantRow] {
     let first = log.plant.partition_point(|row| row.time < from);
     let end = log.plant.partition_point(|row| row.time <= to);
     &log.plant[first..end]

@@ -6,7 +6,7 @@ use super::chart::Point;
 const POINTS: usize = 3000;
 
 /// Elements about `interval` apart; `time` says when each was (s).
-pub fn thinned<R>(rows: &[R], interval: f64, time: impl Fn(&R) -> f64) -> impl Iterator<Item = &R> {
+pub(super) fn thinned<R>(rows: &[R], interval: f64, time: impl Fn(&R) -> f64) -> impl Iterator<Item = &R> {
     let step = match rows {
         [first, .., last] if time(last) > time(first) => interval * rows.len() as f64 / (time(last) - time(first)),
         _ => 1.0,
@@ -15,7 +15,7 @@ pub fn thinned<R>(rows: &[R], interval: f64, time: impl Fn(&R) -> f64) -> impl I
 }
 
 /// The curve with the least and the greatest value of each span of time, in their order. Gaps stay, however short.
-pub fn outlined(points: &[Point]) -> Vec<Point> {
+pub(super) fn outlined(points: &[Point]) -> Vec<Point> {
     let span = (2 * points.len()).div_ceil(POINTS);
     if span <= 2 {
         return points.to_vec();

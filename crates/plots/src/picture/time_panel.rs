@@ -16,7 +16,7 @@ const SWAPS_MAX: usize = 120;
 const LEFT_OUT: f64 = 0.03;
 
 /// Builds a panel over time.
-pub struct TimePanel {
+pub(super) struct TimePanel {
     chart: Chart,
     bands: Vec<([Point; 4], Pen)>,
     curves: Vec<(Vec<Point>, Pen)>,
@@ -26,18 +26,18 @@ pub struct TimePanel {
 
 impl TimePanel {
     /// A panel whose range includes all values, and the values `always`.
-    pub fn new(y_label: &str, always: &[f64]) -> Self {
+    pub(super) fn new(y_label: &str, always: &[f64]) -> Self {
         let range = always.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(min, max), y| (min.min(*y), max.max(*y)));
         Self { chart: Chart::new("", y_label), bands: Vec::new(), curves: Vec::new(), range, left_out: 0.0 }
     }
 
     /// A panel whose range leaves out rare values, but includes the values `always`.
-    pub fn usual(y_label: &str, always: &[f64]) -> Self {
+    pub(super) fn usual(y_label: &str, always: &[f64]) -> Self {
         Self { left_out: LEFT_OUT, ..Self::new(y_label, always) }
     }
 
     /// Draws a quantity over time; NaN leaves a gap.
-    pub fn draw(&mut self, label: &str, pen: Pen, points: Vec<Point>) {
+    pub(super) fn draw(&mut self, label: &str, pen: Pen, points: Vec<Point>) {
         let mut values: Vec<f64> = points.iter().map(|point| point[1]).filter(|y| y.is_finite()).collect();
         values.sort_by(f64::total_cmp);
         let left_out = (values.len() as f64 * self.left_out) as usize;
@@ -49,7 +49,7 @@ impl TimePanel {
     }
 
     /// Draws a quantity of the controller over time; `None` leaves a gap.
-    pub fn draw_of(
+    pub(super) fn draw_of(
         &mut self,
         label: &str,
         pen: Pen,
@@ -60,7 +60,13 @@ impl TimePanel {
     }
 
     /// Fills the area between two values over some time.
-    pub fn band(&mut self, label: &str, colour: &'static str, (from, to): (f64, f64), (least, greatest): (f64, f64)) {
+    pub(super) fn band(
+        &mut self,
+        label: &str,
+        colour: &'static str,
+        (from, to): (f64, f64),
+        (least, greatest): (f64, f64),
+    ) {
         self.range = (self.range.0.min(least), self.range.1.max(greatest));
         let corners = [[from, least], [to, least], [to, greatest], [from, greatest]];
         if self.bands.iter().all(|(_, pen)| pen.colour != colour) {
@@ -70,7 +76,7 @@ impl TimePanel {
     }
 
     /// Draws horizontal lines across the panel.
-    pub fn level(&mut self, label: &str, values: &[f64], pen: Pen) {
+    pub(super) fn level(&mut self, label: &str, values: &[f64], pen: Pen) {
         for value in values {
             self.chart.level(*value, pen);
         }
@@ -98,7 +104,7 @@ impl TimePanel {
 }
 
 /// Draws panels below each other, each `height` (px) high.
-pub fn picture(
+pub(super) fn picture(
     title: &str,
     log: &RunLog,
     mechanism: &Mechanism,
@@ -124,6 +130,6 @@ pub fn picture(
 }
 
 /// Times of the first and the last tick (s).
-pub fn whole_run(log: &RunLog) -> (f64, f64) {
+pub(super) fn whole_run(log: &RunLog) -> (f64, f64) {
     log.controller.first().zip(log.controller.last()).map_or((0.0, 1.0), |(first, last)| (first.time, last.time))
 }

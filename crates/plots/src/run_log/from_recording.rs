@@ -8,7 +8,7 @@ use record::{TickMessage, TruthMessage};
 use super::{ControllerRow, PlantRow};
 
 /// The controller's report of a tick, at a time (s) since the start of the run.
-pub fn of_controller(time: f64, tick: &TickMessage, timing: &PeriodTiming, report: &Report) -> ControllerRow {
+pub(super) fn of_controller(time: f64, tick: &TickMessage, timing: &PeriodTiming, report: &Report) -> ControllerRow {
     ControllerRow {
         time,
         tick: tick.tick,
@@ -35,7 +35,7 @@ pub fn of_controller(time: f64, tick: &TickMessage, timing: &PeriodTiming, repor
 }
 
 /// Converts the plant's true state at a time (s).
-pub fn of_plant(time: f64, truth: &TruthMessage) -> PlantRow {
+pub(super) fn of_plant(time: f64, truth: &TruthMessage) -> PlantRow {
     let [x, y, z, qw, qx, qy, qz] = truth.right_sole;
     // It was a unit quaternion when it was recorded; normalising it again would change its last bits.
     let rotation = UnitQuaternion::new_unchecked(Quaternion::new(qw, qx, qy, qz));

@@ -9,13 +9,13 @@ use super::{ControllerRow, PlantRow, RunLog};
 /// Ticks per half-step; a tick takes 0.1 s.
 const TICKS: u64 = 6;
 
-pub fn mechanism() -> Mechanism {
+pub(crate) fn mechanism() -> Mechanism {
     Mechanism::load(format!("{}/../../config/mechanism.toml", env!("CARGO_MANIFEST_DIR"))).expect("the committed file")
 }
 
 /// A log of `half_steps` completed half-steps and the beginning of another; in each the robot stands 0.25 m farther and
 /// turned by `turn` (rad).
-pub fn log(half_steps: u64, turn: f64) -> RunLog {
+pub(crate) fn log(half_steps: u64, turn: f64) -> RunLog {
     let mut log = RunLog::default();
     let mut right_sole_to_world = Isometry3::identity();
     for tick in 0..half_steps * TICKS + TICKS / 2 {

@@ -6,12 +6,12 @@ use synthesis::{GaitRecording, LegPattern, Synthesis, SynthesisParameters, synth
 use crate::common::{config, mechanism};
 
 /// The half-step of the default parameters.
-pub fn nominal(mechanism: &Mechanism, pattern: &LegPattern) -> Synthesis {
+pub(crate) fn nominal(mechanism: &Mechanism, pattern: &LegPattern) -> Synthesis {
     synthesize(mechanism, pattern, &SynthesisParameters::default(), "a test").unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Both mechanisms with both leg patterns.
-pub fn all() -> Vec<(String, Mechanism, Synthesis)> {
+pub(crate) fn all() -> Vec<(String, Mechanism, Synthesis)> {
     let recording = GaitRecording::load(&config("recorded_leg_shape.csv")).unwrap_or_else(|error| panic!("{error}"));
     let mut all = Vec::new();
     for file in ["mechanism.toml", "mechanism_other_reading.toml"] {

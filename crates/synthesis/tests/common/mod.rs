@@ -6,11 +6,11 @@ use config::Config;
 use model::Mechanism;
 
 /// A file of the `config` folder.
-pub fn config(name: &str) -> PathBuf {
+pub(crate) fn config(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../config").join(name)
 }
 
 /// The mechanism of a file of the `config` folder.
-pub fn mechanism(name: &str) -> Mechanism {
+pub(crate) fn mechanism(name: &str) -> Mechanism {
     Mechanism::load(config(name)).unwrap_or_else(|errors| panic!("{errors}"))
 }

@@ -55,23 +55,31 @@ pub enum MessageFault {
 pub(crate) struct Check(pub &'static str);
 
 impl Check {
-    pub fn number(&self, field: &'static str, value: f64) -> Result<f64, MessageFault> {
+    pub(super) fn number(&self, field: &'static str, value: f64) -> Result<f64, MessageFault> {
         if value.is_finite() { Ok(value) } else { Err(MessageFault::NotFinite { message: self.0, field, value }) }
     }
 
-    pub fn not_negative(&self, field: &'static str, value: f64) -> Result<f64, MessageFault> {
+    pub(super) fn not_negative(&self, field: &'static str, value: f64) -> Result<f64, MessageFault> {
         let value = self.number(field, value)?;
         if value >= 0.0 { Ok(value) } else { Err(MessageFault::Negative { message: self.0, field, value }) }
     }
 
-    pub fn numbers<const N: usize>(&self, field: &'static str, values: &[f64; N]) -> Result<[f64; N], MessageFault> {
+    pub(super) fn numbers<const N: usize>(
+        &self,
+        field: &'static str,
+        values: &[f64; N],
+    ) -> Result<[f64; N], MessageFault> {
         match values.iter().find(|value| !value.is_finite()) {
             None => Ok(*values),
             Some(&value) => Err(MessageFault::NotFinite { message: self.0, field, value }),
         }
     }
 
-    pub fn joints(&self, field: &'static str, values: &[f64; Joint::COUNT]) -> Result<JointVector, MessageFault> {
+    pub(super) fn joints(
+        &self,
+        field: &'static str,
+        values: &[f64; Joint::COUNT],
+    ) -> Result<JointVector, MessageFault> {
         let values = PerJoint(*values);
         match values.iter().find(|(_, value)| !value.is_finite()) {
             None => Ok(values),
@@ -79,7 +87,7 @@ impl Check {
         }
     }
 
-    pub fn code<T: interface::code::Code>(&self, field: &'static str, value: u32) -> Result<T, MessageFault> {
+    pub(super) fn code<T: interface::code::Code>(&self, field: &'static str, value: u32) -> Result<T, MessageFault> {
         T::from_code(value).ok_or(MessageFault::UnknownCode { message: self.0, field, value, known: T::KNOWN })
     }
 }

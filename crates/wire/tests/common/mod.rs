@@ -8,13 +8,13 @@ use std::time::{Duration, Instant};
 use model::Joint;
 use wire::{Instance, Leftovers, MeasurementMessage, ReportMessage, RequestMessage, SetpointMessage};
 
-pub const MECHANISM: u64 = 0x0123_4567_89ab_cdef;
+pub(crate) const MECHANISM: u64 = 0x0123_4567_89ab_cdef;
 
 /// Much longer than anything here takes, even on a loaded machine.
-pub const LONG: Duration = Duration::from_secs(30);
+pub(crate) const LONG: Duration = Duration::from_secs(30);
 
 /// An instance of this test alone, and the guard that removes its files.
-pub fn own_instance() -> (Instance, Leftovers) {
+pub(crate) fn own_instance() -> (Instance, Leftovers) {
     static COUNT: AtomicU32 = AtomicU32::new(0);
     let name = format!("test-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
     let instance = Instance::new(&name).unwrap();
@@ -23,7 +23,7 @@ pub fn own_instance() -> (Instance, Leftovers) {
 }
 
 /// Polls until there is a value.
-pub fn eventually<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
+pub(crate) fn eventually<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
     let began = Instant::now();
     loop {
         if let Some(value) = poll() {
@@ -34,7 +34,7 @@ pub fn eventually<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
     }
 }
 
-pub fn setpoint(tick: u64) -> SetpointMessage {
+pub(crate) fn setpoint(tick: u64) -> SetpointMessage {
     let value = tick as f64;
     SetpointMessage {
         tick,
@@ -45,7 +45,7 @@ pub fn setpoint(tick: u64) -> SetpointMessage {
     }
 }
 
-pub fn measurement(tick: u64) -> MeasurementMessage {
+pub(crate) fn measurement(tick: u64) -> MeasurementMessage {
     let value = tick as f64;
     MeasurementMessage {
         tick,
@@ -61,7 +61,7 @@ pub fn measurement(tick: u64) -> MeasurementMessage {
     }
 }
 
-pub fn request(turn: f64) -> RequestMessage {
+pub(crate) fn request(turn: f64) -> RequestMessage {
     RequestMessage {
         not_before: 0,
         present: RequestMessage::TURN,
@@ -75,7 +75,7 @@ pub fn request(turn: f64) -> RequestMessage {
     }
 }
 
-pub fn report(tick: u64) -> ReportMessage {
+pub(crate) fn report(tick: u64) -> ReportMessage {
     ReportMessage {
         tick,
         time_ns: 0,
@@ -102,7 +102,7 @@ pub fn report(tick: u64) -> ReportMessage {
 }
 
 /// Names of files in shared memory and in the temporary folder that belong to an instance.
-pub fn files_of(instance: &Instance) -> Vec<String> {
+pub(crate) fn files_of(instance: &Instance) -> Vec<String> {
     let mark = format!("halfstep.{}.", instance.name());
     let shared = std::fs::read_dir("/dev/shm").unwrap().flatten().map(|file| file.file_name());
     let mut files: Vec<String> =
