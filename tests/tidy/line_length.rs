@@ -3,7 +3,7 @@
 use crate::offence::Offence;
 use crate::sources::Sources;
 
-/// Longest line allowed [characters]; the same as `max_width` in rustfmt.toml.
+/// Longest line allowed (characters); the same as `max_width` in rustfmt.toml.
 pub const LENGTH_MAX: usize = 120;
 
 /// Lines longer than [`LENGTH_MAX`].

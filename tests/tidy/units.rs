@@ -1,8 +1,7 @@
 //! Public fields and constants state the unit of the physical quantity that they hold.
 //!
-//! The check covers types that contain `f64`, except poses and rotations. The unit stands in brackets anywhere in the
-//! documentation: `[rad/s]`, `(N·m)`, or `[-]` for a pure number. Words that imply a pure number, e.g. ratio, also
-//! count.
+//! The check covers types that contain `f64`, except poses and rotations. The unit stands in parentheses anywhere in
+//! the documentation: `(rad/s)`, or `(-)` for a pure number. Words that imply a pure number, e.g. ratio, also count.
 
 use quote::ToTokens;
 use syn::visit::Visit;
@@ -75,15 +74,10 @@ fn is_quantity(kind: &syn::Type) -> bool {
     has("f64") && !["Isometry3", "UnitQuaternion", "Quaternion", "Rotation3"].into_iter().any(has)
 }
 
-/// Whether a text contains a unit in brackets or a word that implies a pure number.
+/// Whether a text contains a unit in parentheses or a word that implies a pure number.
 fn states_a_unit(text: &str) -> bool {
-    let in_brackets = |open: char, close: char| {
-        text.split(open).skip(1).filter_map(move |rest| rest.split_once(close)).any(|(inside, _)| is_unit(inside))
-    };
-    PURE.iter().any(|word| text.to_lowercase().contains(word))
-        || in_brackets('[', ']')
-        || in_brackets('(', ')')
-        || in_brackets('`', '`')
+    let mut in_parentheses = text.split('(').skip(1).filter_map(|rest| rest.split_once(')'));
+    PURE.iter().any(|word| text.to_lowercase().contains(word)) || in_parentheses.any(|(inside, _)| is_unit(inside))
 }
 
 /// Whether a text is a unit or a list of units: `N·m/rad²`, `m, rad`.
@@ -104,7 +98,7 @@ mod tests {
 
     #[test]
     fn public_quantities_state_their_unit() {
-        let remedy = "End the documentation with the unit in brackets: `[rad/s]`, or `[-]` for a pure number.";
+        let remedy = "End the documentation with the unit in parentheses: `(rad/s)`, or `(-)` for a pure number.";
         assert_within(KNOWN, &without_unit(&Sources::of_repository()), remedy);
     }
 
@@ -116,7 +110,7 @@ mod tests {
                 pub a: f64,
                 /// How wide.
                 pub b: f64,
-                /// At 5 [Hz or so].
+                /// At 5 (Hz or so).
                 pub c: Vector3<f64>,
                 /// Speed factor.
                 pub d: f64,
