@@ -5,8 +5,6 @@
 //!   [`admission_worker`] for requests that must be simulated ahead, [`recorder`] for recordings and observers.
 //! * [`replay`] runs a controller on recorded inputs, and compares the setpoints.
 //! * [`configuration`] and [`realtime`] read what a process needs; [`engine`] runs another program's physics.
-//!
-//! The crates below do not depend on each other: [`exchange`] converts what they pass to one another.
 
 pub mod admission_worker;
 pub mod configuration;
