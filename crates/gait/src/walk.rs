@@ -84,8 +84,8 @@ impl Walk {
         Admission { verdict, objection, granted, effect_half_step: self.half_step.index }
     }
 
-    /// Walks by `command` from now on and says from which half-step on all of it is in effect: speed at once, turn at
-    /// the next deflecting half-step, extension at the next half-step. What is in force already changes nothing.
+    /// Puts `command` into force, and returns the half-step from which on all of it is in effect: speed at once, turn
+    /// at the next deflecting half-step, extension at the next half-step. What is in force already changes nothing.
     pub fn force(&mut self, command: &Command) -> u64 {
         let (now, in_force) = (self.half_step, self.command());
         let mut effect_half_step = now.index;

@@ -1,4 +1,4 @@
-//! Goal: whoever asks for too much learns what, where and how much.
+//! Goal: a half-step that cannot be walked is refused with the reason, the place and the numbers.
 //! Method: one impossible wish at a time, and the message that it gets.
 
 mod common;

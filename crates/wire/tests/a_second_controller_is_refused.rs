@@ -82,7 +82,7 @@ fn one_controller_and_one_plant_of_several_simultaneous_starts_succeed() {
         let controllers: Vec<_> =
             (0..3).map(|_| threads.spawn(|| ControllerPorts::connect(&instance, MECHANISM))).collect();
         let plants: Vec<_> = (0..3).map(|_| threads.spawn(|| PlantPorts::connect(&instance, MECHANISM))).collect();
-        // All results are kept until the end, so that nobody can follow a winner.
+        // All results are kept until the end, so that no second one can connect after a successful one has gone.
         let controllers: Vec<_> = controllers.into_iter().map(|thread| thread.join().unwrap()).collect();
         let plants: Vec<_> = plants.into_iter().map(|thread| thread.join().unwrap()).collect();
         assert_eq!(controllers.iter().flatten().count(), 1);
