@@ -1,7 +1,7 @@
-//! What is computed: a configuration, a step of the plant, a tick, a plan.
+//! Computing times: inverse dynamics, a step of the plant, a tick of the controller, planning.
 //!
-//! Everything takes turns in rounds, and the least of the rounds counts. What is shorter than looking at the clock is timed
-//! in batches: its spread is that of the batches' means.
+//! All are measured in interleaved rounds, and the minimum of the rounds counts. What is shorter than reading the clock
+//! is timed in batches: its quantiles are those of the batches' means.
 
 use interface::{GaitChange, Request, Setpoint, Source};
 use std::hint::black_box;
@@ -20,47 +20,47 @@ use runtime::{Scheduling, now_ns};
 
 use crate::{BenchError, BenchReport, Machine, Ratio, Reduction, Series};
 
-/// What is walked, and how it is measured.
+/// The walk, and options of the measurement.
 #[derive(Clone, Debug)]
 pub struct ComputeOptions {
-    /// The robot.
+    /// The robot's mechanism.
     pub mechanism: Mechanism,
-    /// Its half-step.
+    /// The robot's nominal half-step.
     pub nominal: Arc<NominalTable>,
-    /// As configured.
+    /// The controller's parameters.
     pub controller: controller::Parameters,
-    /// As configured.
+    /// The plant's parameters.
     pub plant: plant::PlantParameters,
-    /// How often everything takes turns.
+    /// Number of rounds.
     pub rounds: u32,
-    /// How long a turn lasts.
+    /// Length of one measurement in a round.
     pub slice: Duration,
     /// The control period (s).
     pub period: f64,
-    /// What is asked of the system; an ordinary thread is enough.
+    /// Scheduling of the thread; an ordinary one is enough.
     pub scheduling: Scheduling,
 }
 
-/// Something to time.
+/// A quantity to measure.
 struct Work<'w> {
     series: Series,
-    /// How many calls are timed together.
+    /// Number of calls that are timed together.
     batch: u32,
-    /// Does it once and gives the part of the time that counts (ns), or `None` for all of it.
+    /// Runs once, and returns the part of the time that counts (ns), or `None` for all of it.
     run: Box<dyn FnMut() -> Option<u64> + 'w>,
 }
 
-/// Simulated time after which the walk begins anew (control periods).
+/// Length of the walk, after which it is restarted (control periods).
 const WALK: u64 = 20_000;
-/// How much of it is timed together where a single period is too short (control periods).
+/// Length of a part that is timed together where a single period is too short (control periods).
 const PART: usize = 100;
-/// How much of the walk is not timed: caches, and the predictions of branches.
+/// Start of the walk that is not timed, in which caches and branch predictors warm up (control periods).
 const WARM_UP: u64 = 2000;
 
-/// Measures everything.
+/// Measures all computing times.
 ///
 /// # Errors
-/// The nominal does not walk.
+/// The robot cannot walk with these parameters.
 pub fn compute(options: &ComputeOptions) -> Result<BenchReport, BenchError> {
     let _granted = options.scheduling.request();
     let mut works = works(options)?;
@@ -85,7 +85,7 @@ pub fn compute(options: &ComputeOptions) -> Result<BenchReport, BenchError> {
 
 const TICK: &str = "controller tick, walking";
 
-/// What is timed, in the order of the table.
+/// The measured quantities, in the order of the table.
 fn works(options: &ComputeOptions) -> Result<Vec<Work<'static>>, BenchError> {
     let ComputeOptions { mechanism, nominal, controller, plant, period, .. } = options.clone();
     let no_walk = |error| BenchError::new("the walk", error);
@@ -98,7 +98,7 @@ fn works(options: &ComputeOptions) -> Result<Vec<Work<'static>>, BenchError> {
         black_box(zmp(&inverse.ground));
     };
     let (of_tree, mut batch, mut lane) = (tree.clone(), Batch::default(), 0);
-    // One configuration per call; every eighth call computes.
+    // One posture per call; every eighth call computes.
     let eight_at_once = move || {
         batch.set(lane, black_box(&motion));
         lane = (lane + 1) % LANES;
@@ -164,7 +164,7 @@ fn works(options: &ComputeOptions) -> Result<Vec<Work<'static>>, BenchError> {
     ])
 }
 
-/// Requests for another speed, played ahead; only that counts.
+/// Times the evaluation of requests for another speed, without the ticks in between.
 fn forecast_timed((mut controller, mut plant): (Controller, Plant), period: f64) -> Work<'static> {
     let mut faster = false;
     Work::new("forecast of a request", 1, move || {
@@ -178,14 +178,14 @@ fn forecast_timed((mut controller, mut plant): (Controller, Plant), period: f64)
             controller.complete(job);
             took_ns
         });
-        // The reply leaves with a tick.
+        // A tick delivers the reply.
         let tick = controller.tick(period, Some(&plant.measure()));
         plant.step(&tick.setpoint);
         took_ns
     })
 }
 
-/// Ticks of a controller that walks its plant; only the tick counts.
+/// Times the ticks of a controller that walks a plant, without the plant.
 fn walk_timed(
     (mut controller, mut plant): (Controller, Plant),
     period: f64,
@@ -214,7 +214,7 @@ fn walk_timed(
     work
 }
 
-/// Parts of a walk: with the controller, and the plant `alone` once more, to the same bits; only one of both counts.
+/// Times parts of a walk: controller and plant together, or the plant `alone` with the same setpoints.
 fn parts_timed(
     name: &str,
     alone: bool,
@@ -260,7 +260,7 @@ impl Work<'static> {
         })
     }
 
-    /// For what takes less than some microseconds.
+    /// A quantity that takes less than some microseconds.
     fn batched(name: &str, mut run: impl FnMut() + 'static) -> Self {
         Self::new(name, 32, move || {
             run();
@@ -285,7 +285,7 @@ impl Work<'static> {
     }
 }
 
-/// Different in every joint, so that nothing is a special case; the ground pushes.
+/// A motion that differs in every joint, so that nothing is a special case.
 fn motion() -> Motion {
     let spread = |size: f64| PerJoint::from_fn(|joint| size * (f64::from(joint.number()) * 0.7).sin());
     Motion { angles: spread(0.5), rates: spread(2.0), accelerations: spread(-10.0) }

@@ -1,7 +1,8 @@
-//! Latency of a running controller, measured from outside: from measurement to setpoint, from request to reply and effect.
+//! Latency of a running controller, measured from outside: from measurement to setpoint, from request to reply and
+//! effect.
 //!
-//! This process is plant and operator at once. It waits actively, so that messages are timed as they arrive. Requests are
-//! due at times that are unrelated to the periods, and their latency counts from when they are due.
+//! This process is plant and operator at once. It waits actively, so that messages are timed as they arrive. Requests
+//! are due at times that are unrelated to the periods, and their latency counts from when they are due.
 
 use std::collections::VecDeque;
 use std::hint::spin_loop;

@@ -1,22 +1,22 @@
-//! cyclictest of the rt-tests, the usual measure of wake-up lateness, if it is installed.
+//! Runs cyclictest of the rt-tests, the usual measure of wake-up latency, if it is installed.
 
 use std::process::Command;
 use std::time::Duration;
 
 use crate::{BenchError, Series};
 
-/// Later than this it only counts how often (µs).
+/// Largest latency in cyclictest's histogram (µs).
 const LATEST_US: u64 = 20_000;
 
-/// Whether it is installed.
+/// Whether cyclictest is installed.
 pub fn is_installed() -> bool {
     Command::new("cyclictest").arg("--help").output().is_ok()
 }
 
-/// Runs it on a core for so many periods and adds what it measured, to the microsecond below.
+/// Runs cyclictest on a core for so many periods, and adds its times, rounded down to microseconds, to a series.
 ///
 /// # Errors
-/// It failed, or told nothing.
+/// cyclictest failed, or printed no histogram.
 pub fn run(core: usize, priority: u8, period: Duration, periods: u64, series: &mut Series) -> Result<(), BenchError> {
     let failed = |cause: String| BenchError::new("cyclictest", cause);
     let numbers = [
@@ -38,7 +38,7 @@ pub fn run(core: usize, priority: u8, period: Duration, periods: u64, series: &m
     if counted == 0 { Err(failed(String::from_utf8_lossy(&output.stderr).trim().to_owned())) } else { Ok(()) }
 }
 
-/// The lateness (µs) and how often it was that late.
+/// Latencies (µs) with their counts, from cyclictest's output.
 fn histogram(told: &str) -> impl Iterator<Item = (u64, u64)> {
     told.lines().filter_map(|line| {
         let mut words = line.split_whitespace();
@@ -52,7 +52,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn its_histogram_is_read() {
+    fn histogram_of_cyclictest_is_parsed() {
         let told = "# Histogram\n000003 000002\n000004 000001\n# Total: 000000003\n# Min Latencies: 00003\n";
         assert_eq!(histogram(told).collect::<Vec<_>>(), [(3, 2), (4, 1)]);
     }

@@ -1,8 +1,8 @@
-//! The exchange: measurement there, setpoint back, between two processes that both wait awake, each on a core of its own.
+//! Round trip of measurement and setpoint between two processes that both wait actively, each on a core of its own.
 //!
-//! Our services are measured beside iceoryx2 by itself and a bare ring in shared memory. A round trip begins, at the loop's
-//! pace, when it is due, whether or not the one before has come back in time: what waits is counted (no coordinated
-//! omission). Flat out, the next begins when the last has ended.
+//! The services of `wire` are measured against plain iceoryx2 and a bare ring in shared memory. At the control rate a
+//! round trip begins when it is due, whether or not the previous one has come back in time, so that waiting counts (no
+//! coordinated omission). Without pause the next one begins when the last has ended.
 
 use std::hint::{black_box, spin_loop};
 use std::io::{BufRead, BufReader, Write};
@@ -17,22 +17,22 @@ use crate::raw_iceoryx2::{Blackboards, PubSub, Services};
 use crate::raw_ring::{Plain, SharedRing};
 use crate::{BenchError, BenchReport, Machine, Ratio, Reduction, Series};
 
-/// How it is measured.
+/// Options of the measurement.
 #[derive(Clone, Copy, Debug)]
 pub struct ExchangeOptions {
-    /// How often all ways take turns.
+    /// Number of rounds.
     pub rounds: u32,
-    /// Trips of a round, flat out.
+    /// Round trips without pause per round.
     pub trips: u64,
-    /// Trips of a round, at the loop's pace.
+    /// Round trips at the control rate per round.
     pub trips_at_pace: u64,
-    /// The loop's period.
+    /// The control period.
     pub period: Duration,
-    /// What the two processes ask of the system: who asks, and who answers. Each must have a core of its own.
+    /// Scheduling of the two processes: the one that begins, and the one that answers. Each needs a core of its own.
     pub scheduling: [Scheduling; 2],
 }
 
-/// The ways that a message can take.
+/// The compared ways of exchange, with the group in which each is shown.
 const WAYS: [(&str, &str); 4] = [
     ("halfstep", "setpoint + measurement"),
     ("blackboard", "iceoryx2 blackboard"),
@@ -40,26 +40,26 @@ const WAYS: [(&str, &str); 4] = [
     ("ring", "ring in shared memory"),
 ];
 
-/// Both ends mean the same robot: none.
+/// Fingerprint of the mechanism: both ends use the same one.
 const MECHANISM: u64 = 0;
 /// The tick of the last measurement of a round.
 const LAST: u64 = u64::MAX / 2;
-/// Whoever waits awake before everybody else must let the others live in between.
-const BREATH: Duration = Duration::from_millis(100);
-/// Nothing takes so long; whoever does not answer has gone.
-const PATIENCE_NS: u64 = 5_000_000_000;
+/// Pause in which other threads can run: a thread that waits actively with priority starves them.
+const SETTLING_TIME: Duration = Duration::from_millis(100);
+/// How long to wait for an answer (ns).
+const TIMEOUT_NS: u64 = 5_000_000_000;
 
 /// One end of a way: sends `Out`, receives `In`.
 trait Way<Out, In> {
     fn send(&mut self, message: &Out);
-    /// The tick of a message that has come, all of which has been read.
+    /// Reads a whole message, if one has arrived, and returns its tick.
     fn receive(&mut self) -> Option<u64>;
 }
 
-/// Measures all ways. `answering` starts this program such that it does nothing but [`answer`].
+/// Measures all ways of exchange. `answering` is the command that runs [`answer`] in another process.
 ///
 /// # Errors
-/// A way cannot be opened, or nobody answers.
+/// A way cannot be opened, or the other process does not answer.
 pub fn exchange(
     options: &ExchangeOptions,
     instance: &Instance,
@@ -75,7 +75,7 @@ pub fn exchange(
     let mut flat_out = of_group("round trip, flat out");
     let mut at_pace = of_group(&format!("round trip every {period_us} µs"));
     for round in 0..options.rounds as usize {
-        // Not always the same one after the same.
+        // In another order in every round.
         for place in 0..WAYS.len() {
             let way = (place + round) % WAYS.len();
             let asking = ways[way].as_mut();
@@ -86,7 +86,7 @@ pub fn exchange(
             time_flat_out(asking, options.trips, &mut flat_out[way])?;
             time_at_pace(asking, options, &mut at_pace[way])?;
             asking.send(&MeasurementMessage { tick: LAST, ..MeasurementMessage::EMPTY });
-            std::thread::sleep(BREATH);
+            std::thread::sleep(SETTLING_TIME);
         }
     }
 
@@ -106,7 +106,7 @@ pub fn exchange(
     Ok(BenchReport { what: "latency", machine: Machine::of_this_process(), series, ratios, notes })
 }
 
-/// Answers on whatever way stdin names, until it ends: the other process of [`exchange`].
+/// The other process of [`exchange`]: answers on the way that stdin names, until stdin ends.
 ///
 /// # Errors
 /// A way cannot be opened.
@@ -134,7 +134,7 @@ pub fn answer(instance: &Instance, scheduling: &Scheduling) -> Result<(), BenchE
     Ok(())
 }
 
-/// The process that answers.
+/// The other process, which answers.
 struct Other {
     child: Child,
     ask: ChildStdin,
@@ -164,7 +164,7 @@ impl Other {
 
 impl Drop for Other {
     fn drop(&mut self) {
-        // It may wait for a measurement that does not come any more.
+        // It may wait for a measurement that will not come.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
@@ -179,7 +179,7 @@ fn trip(way: &mut dyn Way<MeasurementMessage, SetpointMessage>, tick: u64) -> Re
             return Ok(());
         }
         looks += 1;
-        if looks.is_multiple_of(1 << 20) && now_ns() - *began.get_or_insert_with(now_ns) > PATIENCE_NS {
+        if looks.is_multiple_of(1 << 20) && now_ns() - *began.get_or_insert_with(now_ns) > TIMEOUT_NS {
             return Err(BenchError::new("the process that answers", "no message for too long"));
         }
         spin_loop();
@@ -200,7 +200,7 @@ fn time_flat_out(
         trip(way, tick)?;
         let ended_ns = now_ns();
         series.add((ended_ns - began_ns) as f64);
-        // Adding is no part of the next trip.
+        // Adding to the series is not part of the next trip.
         began_ns = now_ns();
     }
     Ok(())
@@ -226,7 +226,7 @@ fn time_at_pace(
 
 type Ways<Out, In> = [Box<dyn Way<Out, In>>; 4];
 
-/// In the order of [`WAYS`], for who asks and begins.
+/// The ends of the process that begins, in the order of [`WAYS`].
 fn asking_ways(instance: &Instance) -> Result<Ways<MeasurementMessage, SetpointMessage>, BenchError> {
     let services = Services::new(instance.name(), true)?;
     let ring = |error| BenchError::new("a ring", error);
@@ -241,7 +241,7 @@ fn asking_ways(instance: &Instance) -> Result<Ways<MeasurementMessage, SetpointM
     ])
 }
 
-/// In the order of [`WAYS`], for who answers.
+/// The ends of the process that answers, in the order of [`WAYS`].
 fn answering_ways(instance: &Instance) -> Result<Ways<SetpointMessage, MeasurementMessage>, BenchError> {
     let services = Services::new(instance.name(), false)?;
     let ring = |error| BenchError::new("a ring", error);
@@ -260,7 +260,7 @@ fn ring_file(instance: &Instance, name: &str) -> PathBuf {
     PathBuf::from(format!("/dev/shm/halfstep.{}.ring-{name}", instance.name()))
 }
 
-/// A ring each way.
+/// A ring in each direction.
 struct Rings<Out: Plain, In: Plain> {
     out: SharedRing<Out>,
     into: SharedRing<In>,

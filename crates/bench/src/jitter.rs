@@ -1,7 +1,8 @@
-//! Jitter: how late a loop wakes up, with nothing to do in its periods.
+//! Jitter: how late a loop wakes up that does nothing in its periods.
 //!
-//! Our loop, sleeping and sleeping then spinning, takes turns on the same core with cyclictest, or with a bare loop of
-//! absolute sleeps where that is not installed; while the machine is idle, and while the other core is busy.
+//! The loop of `runtime`, with and without spinning before the deadline, runs alternately on the same core with
+//! cyclictest, or with a bare loop of absolute sleeps if that is not installed; while the machine is idle, and while
+//! another core is busy.
 
 use std::hint::{black_box, spin_loop};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -13,40 +14,40 @@ use rustix::time::Timespec;
 
 use crate::{BenchError, BenchReport, Machine, Ratio, Reduction, Series, cyclictest};
 
-/// How it is measured.
+/// Options of the measurement.
 #[derive(Clone, Copy, Debug)]
 pub struct JitterOptions {
-    /// How often all loops take turns.
+    /// Number of segments of each loop.
     pub segments: u32,
-    /// How long a turn lasts.
+    /// Length of a segment.
     pub segment: Duration,
     /// The loops' period.
     pub period: Duration,
     /// How long before its deadline the spinning loop stops sleeping.
     pub spin: Duration,
-    /// What all loops ask of the system.
+    /// Scheduling of all loops.
     pub scheduling: Scheduling,
-    /// Which other core is kept busy, if any.
+    /// The other core that is kept busy, if any.
     pub busy_core: Option<usize>,
 }
 
-/// Series of one condition.
+/// The series of one condition: idle or busy.
 struct Loops {
     sleeping: Series,
     spinning: Series,
     other: Series,
-    /// What the core does to a thread that never sleeps: the longest gap of each period.
+    /// The longest interruption of a thread that never sleeps, in each period.
     floor: Series,
-    /// Of a core, of the spinning loop.
+    /// Share of a core that the spinning loop uses, for each segment.
     share: Vec<f64>,
 }
 
 /// Measures all loops.
 ///
 /// # Errors
-/// cyclictest is there and fails.
+/// cyclictest is installed and fails.
 pub fn jitter(options: &JitterOptions) -> Result<BenchReport, BenchError> {
-    // Held for all alike: cyclictest does so, too.
+    // Held for all loops: cyclictest does so, too.
     let awake = Scheduling { keep_awake: options.scheduling.keep_awake, ..Scheduling::default() }.request();
     let with_cyclictest = options.scheduling.priority.is_some() && cyclictest::is_installed();
     let mut notes: Vec<String> = awake.refused.iter().map(ToString::to_string).collect();
@@ -99,7 +100,7 @@ impl Loops {
     fn take_turns(&mut self, options: &JitterOptions, segment: u32, with_cyclictest: bool) -> Result<(), BenchError> {
         let scheduling = Scheduling { keep_awake: false, ..options.scheduling };
         let periods = options.segment.div_duration_f64(options.period).max(1.0) as u64;
-        // Not always the same one after the same.
+        // In another order in every segment.
         for place in 0..4 {
             match (place + segment) % 4 {
                 0 => {
@@ -126,7 +127,7 @@ impl Loops {
                 _ => {
                     self.floor.begin_round();
                     let series = &mut self.floor;
-                    // Not before everybody else: a thread that never sleeps would be throttled.
+                    // Without priority: the kernel throttles a real-time thread that never sleeps.
                     let ordinary = Scheduling { priority: None, ..scheduling };
                     on_core(&ordinary, |_| longest_gaps(options.period, periods, series));
                 }
@@ -136,7 +137,7 @@ impl Loops {
     }
 }
 
-/// Does it in a thread with the scheduling asked for; the thread is told what was refused.
+/// Runs `work` in a thread with this scheduling; `work` receives what was refused.
 fn on_core<T: Send>(scheduling: &Scheduling, work: impl FnOnce(Vec<String>) -> T + Send) -> T {
     std::thread::scope(|threads| {
         let thread = threads.spawn(|| {
@@ -147,7 +148,7 @@ fn on_core<T: Send>(scheduling: &Scheduling, work: impl FnOnce(Vec<String>) -> T
     })
 }
 
-/// Does it while another core has something to do.
+/// Runs `work` while another core is kept busy.
 fn while_busy<T>(core: Option<usize>, work: impl FnOnce() -> T) -> T {
     let over = AtomicBool::new(false);
     std::thread::scope(|threads| {
@@ -166,14 +167,14 @@ fn while_busy<T>(core: Option<usize>, work: impl FnOnce() -> T) -> T {
     })
 }
 
-/// Gives the share of a core that it took.
+/// Runs the loop of `runtime`, and returns the share of a core that it used.
 fn our_loop(length: Duration, spin: Duration, periods: u64, series: &mut Series) -> f64 {
     let (began, began_ns) = (Usage::of_this_thread(), now_ns());
     let mut period = Period::starting_now(length).with_spin(spin);
     let mut waited = 0;
     while waited < periods {
         let wake = period.wait();
-        // Who sleeps through deadlines was late for each of them.
+        // A loop that misses deadlines was late for each of them.
         for missed in (0..=wake.missed).rev() {
             series.add(wake.late_ns as f64 + missed as f64 * length.as_nanos() as f64);
         }
@@ -182,7 +183,7 @@ fn our_loop(length: Duration, spin: Duration, periods: u64, series: &mut Series)
     Usage::of_this_thread().since(began).cpu_ns as f64 / (now_ns() - began_ns) as f64
 }
 
-/// What everybody writes first.
+/// Runs the simplest loop: absolute sleeps and nothing else.
 fn bare_loop(length: Duration, periods: u64, series: &mut Series) {
     let length_ns = length.as_nanos() as u64;
     let mut deadline_ns = now_ns() + length_ns;
@@ -195,7 +196,7 @@ fn bare_loop(length: Duration, periods: u64, series: &mut Series) {
     }
 }
 
-/// Looks at the clock without end, and adds the longest time between two looks of each period.
+/// Reads the clock without pause, and adds the longest time between two readings in each period.
 fn longest_gaps(length: Duration, periods: u64, series: &mut Series) {
     let mut last_ns = now_ns();
     let over_ns = last_ns + periods * length.as_nanos() as u64;

@@ -1,7 +1,7 @@
 //! Timing of the controller's loop while it is recorded and observed, against the same loop by itself.
 //!
-//! This process is the plant and, in every other segment, an observer. The controllers run one after the other, each in a
-//! process of its own, and report their timing at the end.
+//! This process is the plant and, in every other segment, an observer. The controllers run one after the other, each in
+//! a process of its own, and report their timing at the end.
 
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -34,8 +34,8 @@ pub struct ObservedJitterOptions {
 /// Largest ratio of observed to unobserved that passes.
 const AT_MOST: f64 = 1.1;
 
-/// Measures controllers of an instance, in turn observed and not; `command` starts one, which records into the folder if one
-/// is given.
+/// Measures controllers of an instance, in turn observed and not; `command` starts one, which records into the folder
+/// if one is given.
 ///
 /// # Errors
 /// A controller does not start, or it fails.

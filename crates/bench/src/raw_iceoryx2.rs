@@ -1,4 +1,4 @@
-//! iceoryx2 by itself, without what `wire` adds: the same payload over a blackboard and by publish–subscribe.
+//! Plain iceoryx2, without what `wire` adds: the same payload over a blackboard and by publish–subscribe.
 
 use std::fmt::Debug;
 
@@ -15,14 +15,14 @@ use crate::BenchError;
 
 type Ipc = ipc::Service;
 
-/// What makes and opens services where the instance's other files are, so that they go with those.
+/// Creates and opens services beside the instance's other files, so that they are removed together.
 pub(crate) struct Services {
     node: Node<Ipc>,
-    /// Whether services are made, or opened.
+    /// Whether services are created, or opened.
     makes: bool,
 }
 
-/// One end of a message each way over two blackboards with one entry each.
+/// One end of two blackboards with one entry each, one for each direction.
 pub(crate) struct Blackboards<Out: Latest, In: Latest> {
     out: EntryHandleMut<Ipc, u64, Out>,
     into: EntryHandle<Ipc, u64, In>,
@@ -30,7 +30,7 @@ pub(crate) struct Blackboards<Out: Latest, In: Latest> {
     _ports: (Writer<Ipc, u64>, Reader<Ipc, u64>),
 }
 
-/// One end of a message each way by publish–subscribe, newest wins.
+/// One end of two publish–subscribe services, one for each direction, in which the newest message replaces older ones.
 pub(crate) struct PubSub<Out: Latest, In: Latest> {
     out: Publisher<Ipc, Out, ()>,
     into: Subscriber<Ipc, In, ()>,
@@ -53,7 +53,7 @@ impl Services {
         Ok(Self { node: node.create().map_err(failed)?, makes })
     }
 
-    /// `out` and `into` name the services.
+    /// Opens the blackboards of the services `out` and `into`.
     pub(crate) fn blackboards<Out: Latest, In: Latest>(
         &self,
         out: &str,
@@ -65,7 +65,7 @@ impl Services {
         Ok(Blackboards { out, last: into.get(), into, _ports: (writer, reader) })
     }
 
-    /// `out` and `into` name the services.
+    /// Opens publisher and subscriber of the services `out` and `into`.
     pub(crate) fn pub_sub<Out: Latest, In: Latest>(
         &self,
         out: &str,
@@ -122,7 +122,7 @@ impl<Out: Latest, In: Latest> Blackboards<Out, In> {
 
 impl<Out: Latest + ZeroCopySend, In: Latest + ZeroCopySend> PubSub<Out, In> {
     pub(crate) fn send(&mut self, message: &Out) {
-        // In one run nothing of this can fail after it succeeded once; a message that is lost is noticed by its answer.
+        // Within a run this cannot fail after it succeeded once; a lost message is noticed by its missing answer.
         if let Ok(sample) = self.out.loan_uninit() {
             let _ = sample.write_payload(*message).send();
         }

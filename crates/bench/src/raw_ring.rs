@@ -1,4 +1,4 @@
-//! A ring in shared memory, as bare as can be: the yardstick. The one place with `unsafe` in this crate.
+//! The simplest ring in shared memory, as a reference; the only file with `unsafe` in this crate.
 //!
 //! One side writes, the other reads; each slot has the number of its message, which is written last.
 
@@ -20,7 +20,7 @@ impl Plain for wire::SetpointMessage {}
 pub(crate) struct SharedRing<M: Plain> {
     slots: *mut Slot<M>,
     next: u64,
-    /// Whoever made the file removes it.
+    /// Path of the file in the end that created it, which removes it.
     made: Option<PathBuf>,
     message: PhantomData<M>,
 }
@@ -31,11 +31,11 @@ struct Slot<M> {
     message: M,
 }
 
-/// As few as can be: one message is under way at a time, and what stays in a cache is faster.
+/// Number of slots: one message is in transit at a time, and few slots stay in a cache.
 const SLOTS: u64 = 2;
 
 impl<M: Plain> SharedRing<M> {
-    /// A new ring, all zeros, in a file that must not be there yet; removed when dropped.
+    /// Creates a ring, all zeros, in a new file, which is removed when dropped.
     pub(crate) fn make(path: &Path) -> io::Result<Self> {
         let file = OpenOptions::new().read(true).write(true).create_new(true).open(path)?;
         file.set_len(Self::length() as u64)?;
@@ -44,7 +44,7 @@ impl<M: Plain> SharedRing<M> {
         Ok(ring)
     }
 
-    /// The other end of a ring that was made.
+    /// Opens the other end of a ring.
     pub(crate) fn open(path: &Path) -> io::Result<Self> {
         Self::map(&OpenOptions::new().read(true).write(true).open(path)?)
     }
@@ -74,7 +74,7 @@ impl<M: Plain> SharedRing<M> {
         self.next += 1;
     }
 
-    /// The next message, if it is there.
+    /// Reads the next message, if there is one.
     pub(crate) fn read(&mut self) -> Option<M> {
         let slot = self.slot();
         // SAFETY: as above; the other end comes back to this slot only after an answer to it. Any bytes are a message.
@@ -108,7 +108,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_written_is_read_once_and_in_order() {
+    fn ring_delivers_messages_once_and_in_order() {
         let path = std::env::temp_dir().join(format!("halfstep-ring-{}", std::process::id()));
         let mut writer = SharedRing::make(&path).unwrap();
         let mut reader = SharedRing::<SetpointMessage>::open(&path).unwrap();

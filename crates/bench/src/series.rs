@@ -24,7 +24,7 @@ pub enum Reduction {
 }
 
 /// Longer times are recorded as this (ps).
-const LONGEST: u64 = 10_000_000_000_000;
+const TIME_MAX: u64 = 10_000_000_000_000;
 const PER_NS: f64 = 1000.0;
 
 impl Series {
@@ -35,7 +35,7 @@ impl Series {
 
     /// Begins a round.
     pub fn begin_round(&mut self) {
-        self.rounds.push(Histogram::new_with_bounds(1, LONGEST, 3).expect("three digits of ten seconds"));
+        self.rounds.push(Histogram::new_with_bounds(1, TIME_MAX, 3).expect("three digits of ten seconds"));
     }
 
     /// Adds a time to the current round (ns). Does not allocate.
@@ -50,8 +50,8 @@ impl Series {
         self.rounds.iter().map(Histogram::len).sum()
     }
 
-    /// The time that a share `quantile` of the times does not exceed (ns): the minimum or the median over the rounds. NaN
-    /// if nothing was measured.
+    /// The time that a share `quantile` of the times does not exceed (ns): the minimum or the median over the rounds.
+    /// NaN if nothing was measured.
     pub fn quantile(&self, quantile: f64) -> f64 {
         self.over_rounds(|round| round.value_at_quantile(quantile) as f64 / PER_NS)
     }
@@ -61,8 +61,8 @@ impl Series {
         self.full().map(|round| round.value_at_quantile(quantile) as f64 / PER_NS).collect()
     }
 
-    /// Ratio of this series to another: the median of the rounds' ratios, since a disturbance in a round affects both; for
-    /// minima the ratio of the two minima.
+    /// Ratio of this series to another: the median of the rounds' ratios, since a disturbance in a round affects both;
+    /// for minima the ratio of the two minima.
     pub fn times(&self, other: &Self, quantile: f64) -> f64 {
         let [ours, theirs] = [self, other].map(|series| series.quantile_of_rounds(quantile));
         if self.over == Reduction::Minimum || ours.len() != theirs.len() {
@@ -76,8 +76,8 @@ impl Series {
         self.full().map(|round| round.max() as f64 / PER_NS).fold(f64::NAN, f64::max)
     }
 
-    /// Histogram of the times of all rounds: bins of equal width on a logarithmic scale, each with its upper edge (ns) and the
-    /// share of the times in it.
+    /// Histogram of the times of all rounds: bins of equal width on a logarithmic scale, each with its upper edge (ns)
+    /// and the share of the times in it.
     pub fn spread(&self, least_ns: f64, greatest_ns: f64, bins: usize) -> Vec<(f64, f64)> {
         let mut shares = vec![0.0; bins];
         let (from, to) = (least_ns.ln(), greatest_ns.ln());

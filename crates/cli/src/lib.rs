@@ -1,7 +1,7 @@
 //! The command line of `halfstep`: what users type and read.
 //!
-//! One command per file in `command`: its options, and what it prints. The crates below do the work. `process` runs other
-//! `halfstep` processes, `error` and `status` are how a command ends, `output` prints and writes.
+//! One command per file in `command`: its options, and what it prints. The crates below do the work. `process` runs
+//! other `halfstep` processes, `error` and `status` are how a command ends, `output` prints and writes.
 
 mod command;
 mod error;

@@ -1,18 +1,19 @@
 //! The mechanism as MJCF, MuJoCo's own format.
 //!
 //! A floating tree: the free joint carries the right foot, whose frame lies on the sole, so that joints 1 and 2, the
-//! contact of foot and ground, arise from contact. Joints 3 to 20 keep their names; those that meet in one point share a
-//! body, so that no body is massless. Rotors enter as `armature`. Only soles and floor collide.
+//! contact of foot and ground, arise from contact. Joints 3 to 20 keep their names; those that meet in one point share
+//! a body, so that no body is massless. Rotors enter as `armature`. Only soles and floor collide.
 //!
-//! The actuators are plain torque motors, limited to the motor's torque at standstill: position servo and back-EMF belong
-//! to the drive, which `plant::Drive` or `tools/mujoco_plant` adds.
+//! The actuators are plain torque motors, limited to the motor's torque at standstill: position servo and back-EMF
+//! belong to the drive, which `plant::Drive` or `tools/mujoco_plant` adds.
 //!
 //! # Contact
 //!
-//! MuJoCo defines a contact's stiffness as a time constant, independent of the mass on it. The one chosen here is critically
-//! damped, as fast as the springs of `config/plant.toml` are under the robot's weight (four corners of 1e6 N/m under 73 kg ring at
-//! 234 rad/s, 1/234 s = 4.3 ms), and nearly all constraint: a standing sole sinks in by a few micrometres. Friction is a
-//! cone (`elliptic`), a tenth as soft as the normal direction (`impratio`), so that a loaded sole does not creep.
+//! MuJoCo defines a contact's stiffness as a time constant, independent of the mass on it. The one chosen here is
+//! critically damped, as fast as the springs of `config/plant.toml` are under the robot's weight (four corners of 1e6
+//! N/m under 73 kg ring at 234 rad/s, 1/234 s = 4.3 ms), and nearly all constraint: a standing sole sinks in by a few
+//! micrometres. Friction is a cone (`elliptic`), a tenth as soft as the normal direction (`impratio`), so that a loaded
+//! sole does not creep.
 
 use std::fmt::Write;
 
@@ -140,8 +141,8 @@ fn joints_of(mechanism: &Mechanism, link: Joint) -> Vec<Joint> {
     joints
 }
 
-/// Origin of a link's frame in the frame of the body that carries it (m): at zero angles all frames are parallel, and origins
-/// add up along the massless links.
+/// Origin of a link's frame in the frame of the body that carries it (m): at zero angles all frames are parallel, and
+/// origins add up along the massless links.
 fn place_on_parent(mechanism: &Mechanism, link: Joint) -> Vector3<f64> {
     joints_of(mechanism, link).iter().map(|joint| mechanism.links[*joint].origin).sum()
 }
@@ -167,8 +168,8 @@ fn inertial(out: &mut Lines, body: &Body) {
     ));
 }
 
-/// Visual shape of a link: rods to the joints that it carries, and the box of its mass and moments if it carries none or
-/// several.
+/// Visual shape of a link: rods to the joints that it carries, and the box of its mass and moments if it carries none
+/// or several.
 fn appearance_of(out: &mut Lines, mechanism: &Mechanism, link: Joint) {
     // There is no rod to a joint at the same point.
     let ends = carried_by(mechanism, link).map(|child| place_on_parent(mechanism, child));

@@ -1,8 +1,9 @@
 //! The mechanism as URDF, for viewers and other simulators.
 //!
-//! A floating tree rooted at the right foot link `right_foot`, whose frame lies on the sole: joints 1 and 2, the contact
-//! of foot and ground, are left out; joints 3 to 20 are revolute and keep their names. Links between joints that meet
-//! in one point have no mass: an element of MuJoCo's own, which others ignore, makes it add the mass that it needs there.
+//! A floating tree rooted at the right foot link `right_foot`, whose frame lies on the sole: joints 1 and 2, the
+//! contact of foot and ground, are left out; joints 3 to 20 are revolute and keep their names. Links between joints
+//! that meet in one point have no mass: an element of MuJoCo's own, which others ignore, makes it add the mass that it
+//! needs there.
 //!
 //! Pinocchio drops the root link's mass when the base is fixed: load it there with a free-flyer.
 

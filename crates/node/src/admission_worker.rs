@@ -1,5 +1,5 @@
-//! The worker that evaluates admission jobs: in the loop itself in lockstep, so that a run depends on nothing but its
-//! inputs; on a thread beside the loop in real time, so that no tick waits for it.
+//! Evaluates whether requests can be granted: in a thread beside the loop in real time, so that no tick waits for it;
+//! in the loop itself in lockstep, so that a run depends on nothing but its inputs.
 
 use std::thread::JoinHandle;
 

@@ -43,8 +43,8 @@ pub struct ConfigFiles {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Errors(pub Vec<String>);
 
-/// Makes the controller of a process. It begins standing if `from_stand`, else in mid-walk; in lockstep the commands of a
-/// stream do not expire.
+/// Makes the controller of a process. It begins standing if `from_stand`, else in mid-walk; in lockstep the commands of
+/// a stream do not expire.
 ///
 /// # Errors
 /// The robot cannot walk with these parameters.
@@ -140,8 +140,8 @@ impl ConfigFiles {
         file.map_or_else(|| Some(Disturbances::default()), |file| errors.note(Disturbances::load(file)))
     }
 
-    /// The names and texts of a process's configuration files, for its recording: mechanism, nominal half-step, the folder's
-    /// file `parameters`, and the scheduling.
+    /// The names and texts of a process's configuration files, for its recording: mechanism, nominal half-step, the
+    /// folder's file `parameters`, and the scheduling.
     ///
     /// # Errors
     /// One of the files can no longer be read.

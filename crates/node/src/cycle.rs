@@ -1,9 +1,9 @@
 //! When the loops run: the cycles of controller and plant, by either of two clocks.
 //!
-//! * **realtime**: the first cycle begins with the other side's first message; from then on one begins per period, by this
-//!   process's own absolute deadlines, with the newest message there is. Missed periods are skipped as a whole: the next
-//!   cycle keeps the phase, covers their time as well, and reports how many they were, so that both sides agree on the
-//!   time.
+//! * **realtime**: the first cycle begins with the other side's first message; from then on one begins per period, by
+//!   this process's own absolute deadlines, with the newest message there is. Missed periods are skipped as a whole:
+//!   the next cycle keeps the phase, covers their time as well, and reports how many they were, so that both sides
+//!   agree on the time.
 //! * **lockstep**: cycle `k` begins with the other side's message of tick `k`, as soon as that arrives. The plant's
 //!   measurement 0 begins; the controller answers measurement `k` with setpoint `k`, the plant answers that with
 //!   measurement `k + 1`. So a run depends on nothing but its inputs.
@@ -17,8 +17,8 @@ use crate::interrupt::Interrupt;
 
 /// How long lockstep waits for a message of the other side.
 const SILENCE_MAX: Duration = Duration::from_secs(30);
-/// How long a waiting process keeps its core: longer than a cycle of the other side takes. After that it yields the core,
-/// and at last it sleeps between two polls: waking up costs more than a whole lockstep cycle.
+/// How long a waiting process keeps its core: longer than a cycle of the other side takes. After that it yields the
+/// core, and at last it sleeps between two polls: waking up costs more than a whole lockstep cycle.
 const SPIN: Duration = Duration::from_micros(50);
 const YIELD: Duration = Duration::from_millis(2);
 const POLL_INTERVAL: Duration = Duration::from_micros(200);

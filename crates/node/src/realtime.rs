@@ -40,8 +40,9 @@ impl Config for RealtimeParameters {
 }
 
 impl RealtimeParameters {
-    /// Keeps this thread, and those that it starts from now on, off the core of the controller's loop, if that has one to
-    /// itself: waking up takes longer where somebody else runs. The loops themselves see to their cores in [`enter`].
+    /// Keeps this thread, and the threads that it starts from now on, off the core of the controller's loop, if that is
+    /// pinned to one: waking up takes longer on a core that other threads use. The loops themselves choose their cores
+    /// in [`enter`].
     pub fn keep_off_the_loop(&self, clock: Clock) {
         if let Some(core) = self.controller.core.filter(|_| clock == Clock::Realtime) {
             // If the system refuses, other threads delay the loop now and then.

@@ -39,8 +39,8 @@ struct RecordWriter {
     tick: u64,
 }
 
-/// Opens the controller's recorder. It publishes the report of each tick to observers and, if `to` names a folder, writes
-/// all events into the controller's recording there.
+/// Opens the controller's recorder. It publishes the report of each tick to observers and, if `to` names a folder,
+/// writes all events into the controller's recording there.
 ///
 /// # Errors
 /// The recording cannot be created, or the operating system refused a thread.
@@ -117,8 +117,8 @@ impl RecordWriter {
 }
 
 impl<E: Copy + Send + 'static> Recorder<E> {
-    /// Hands an entry to the thread. When the thread has fallen behind, the entry is lost in real time; in lockstep the loop
-    /// waits.
+    /// Hands an entry to the thread. When the thread has fallen behind, the entry is lost in real time; in lockstep the
+    /// loop waits.
     pub fn push(&mut self, entry: E) {
         while !self.journal.push(entry) && self.clock == Clock::Lockstep {
             std::thread::yield_now();
@@ -127,8 +127,8 @@ impl<E: Copy + Send + 'static> Recorder<E> {
 }
 
 impl RecorderThread {
-    /// Waits until everything is written, which needs the [`Recorder`] to be dropped. Returns the number of lost entries,
-    /// which is also noted in the recording.
+    /// Waits until everything is written, which needs the [`Recorder`] to be dropped. Returns the number of lost
+    /// entries, which is also noted in the recording.
     ///
     /// # Errors
     /// The recording could not be written.

@@ -74,8 +74,8 @@ impl RequestId {
 }
 
 impl RequestBridge {
-    /// A bridge for a clock; at most `unanswered` requests will be without a reply at a time. A thread asks the system for
-    /// `scheduling` and runs on with whatever it is granted.
+    /// A bridge for a clock; at most `unanswered` requests will be without a reply at a time. A thread asks the system
+    /// for `scheduling` and runs on with whatever it is granted.
     ///
     /// # Errors
     /// The operating system refused another thread.

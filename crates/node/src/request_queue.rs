@@ -29,8 +29,8 @@ struct InForce {
     intent: Option<Intent>,
 }
 
-/// A request whose tick has come. Command arbitration counts its source as active from that tick on, not from when it was
-/// sent.
+/// A request whose tick has come. Command arbitration counts its source as active from that tick on, not from when it
+/// was sent.
 pub struct DueRequest {
     /// Routes the reply back to the operator.
     pub id: RequestId,

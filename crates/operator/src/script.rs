@@ -4,8 +4,8 @@
 //! {"t": 1.5, "turn_deg": 10, "speed": 1.2, "extension_deg": 0, "intent": "walk"}
 //! ```
 //!
-//! `t` is the time since the start (s) and must not decrease; a request without it is due at once. At least one of the other
-//! keys is required. Empty lines are skipped.
+//! `t` is the time since the start (s) and must not decrease; a request without it is due at once. At least one of the
+//! other keys is required. Empty lines are skipped.
 
 use interface::{GaitChange, Intent, Request, Source};
 use std::time::Duration;

@@ -1,7 +1,7 @@
 //! Runs a script: sends its requests ahead of time, and collects the replies.
 //!
-//! These requests stay in effect until changed: all of them are on their way before the first is due, so that no heartbeat
-//! is needed, and in lockstep the walk depends on nothing but its inputs.
+//! These requests stay in effect until changed: all of them are on their way before the first is due, so that no
+//! heartbeat is needed, and in lockstep the walk depends on nothing but its inputs.
 
 use interface::{Reply, Request};
 use std::collections::VecDeque;

@@ -16,8 +16,8 @@ const SCALE: f64 = 900.0;
 const STRAIGHT: usize = 3;
 const TURNING: usize = 5;
 
-/// Draws the footprints over full steps with the ZMP path of each half-step; for extended steps also the nominal footprints,
-/// dashed.
+/// Draws the footprints over full steps with the ZMP path of each half-step; for extended steps also the nominal
+/// footprints, dashed.
 ///
 /// # Errors
 /// The mechanism cannot turn or extend its steps.
@@ -61,8 +61,8 @@ pub fn paper_figure(figure: &Figure, robot: &Robot, reading: Reading) -> Result<
     Ok(maps(&title, vec![Map { chart, scale: SCALE }]))
 }
 
-/// The footprints of `count` half-steps with their sides, in world coordinates: where the first swing foot starts, then the
-/// support feet, then the last landing. The first support foot is at the world's origin.
+/// The footprints of `count` half-steps with their sides, in world coordinates: where the first swing foot starts, then
+/// the support feet, then the last landing. The first support foot is at the world's origin.
 fn footprints(half_steps: &[SteadyHalfStep; 2], count: usize) -> Vec<(Side, Isometry2<f64>)> {
     let swing = |half_step: &SteadyHalfStep| match half_step.support {
         Side::Right => half_step.swing,

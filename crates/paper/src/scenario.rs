@@ -47,7 +47,8 @@ impl PaperVerdict {
         }
     }
 
-    /// Whether a ZMP path that is `inside` the sole, or not, agrees with the paper; `None` when the paper states nothing.
+    /// Whether a ZMP path that is `inside` the sole, or not, agrees with the paper; `None` when the paper states
+    /// nothing.
     pub fn agrees(self, inside: bool) -> Option<bool> {
         match self {
             PaperVerdict::In => Some(inside),

@@ -57,8 +57,8 @@ impl SteadyHalfStep {
                 [0, nominal.intervals()].map(|row| swing_foot(mechanism, &tree, &at_nominal_speed[row]));
             Self { support, phase: turn.phase(), at_nominal_speed, swing: Footing { leaves, lands } }
         };
-        // The first deflection may have to wait for its foot, and the first extended half-step begins without extension:
-        // from the third half-step on the walk is steady.
+        // The first deflection may have to wait for its foot, and the first extended half-step begins without
+        // extension: from the third half-step on the walk is steady.
         let mut support = if command.turn < 0.0 { Side::Left } else { Side::Right };
         let mut next = || {
             turn.begin_half_step(support);

@@ -83,7 +83,8 @@ fn leg_length(mechanism: &Mechanism) -> f64 {
     [Joint::LeftKnee, Joint::LeftAnklePitch].iter().map(|joint| mechanism.links[*joint].origin.norm()).sum()
 }
 
-/// A command that makes a half-step for this leg length: lengths scale as the leg, times as its square root (Froude's law).
+/// A command that makes a half-step for this leg length: lengths scale as the leg, times as its square root (Froude's
+/// law).
 fn synthesize_line(mechanism: &Mechanism, folder: &Path) -> String {
     /// Leg length of the robot for which the defaults were chosen (m).
     const DEFAULT_LEG: f64 = 0.856;

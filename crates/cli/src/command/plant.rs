@@ -83,8 +83,8 @@ impl PlantArgs {
         let ticks = self.runs.ticks(realtime.rate);
         let mut cycles = Cycles::new(realtime.timing(clock), setpoints, "controller", ticks, interrupt);
 
-        // Last: other threads must not be pinned to the loop's core. With an external engine the loop is not pinned, so that
-        // the engine need not wait for a core that the loop never leaves.
+        // Last: other threads must not be pinned to the loop's core. With an external engine the loop is not pinned, so
+        // that the engine need not wait for a core that the loop never leaves.
         let _granted = outside.is_none().then(|| realtime::enter(&realtime.plant, clock, "plant"));
         let stands = Setpoint { angles: start.angles, ..Setpoint::default() };
         let step = |plant: &mut plant::Plant, setpoint: &Setpoint| match &mut outside {

@@ -1,7 +1,7 @@
 //! `halfstep send`: sends one request, and prints the reply.
 //!
-//! The request stays in effect until another one changes it, and holds no authority; with `--for` it holds authority for
-//! that time, after which the robot stops.
+//! The request stays in effect until another one changes it, and holds no authority; with `--for` it holds authority
+//! for that time, after which the robot stops.
 
 use interface::{GaitChange, Intent, Lifetime, Request, Source, Verdict};
 use std::time::Duration;
@@ -20,8 +20,8 @@ use crate::status::Status;
 pub(super) struct SendArgs {
     #[command(flatten)]
     instance: InstanceOption,
-    /// Hold control authority for this long, e.g. 5s: lower-priority sources are refused, and the robot stops when it
-    /// expires unless another request has arrived [default: the request stays in effect until replaced]
+    /// Keep command for this time, e.g. 5s: sources with less priority are refused, and at its end, unless something
+    /// else was sent, the walk comes to a stand. Without it what is asked lasts until another request changes it
     #[arg(long = "for", value_name = "DURATION", value_parser = duration, global = true)]
     duration: Option<Duration>,
     #[command(subcommand)]

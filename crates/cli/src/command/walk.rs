@@ -151,8 +151,8 @@ impl WalkArgs {
         unreachable!("numbers do not end")
     }
 
-    /// Starts the controller, sends it the script, and only then starts the plant, which begins the walk: so every request
-    /// arrives in time.
+    /// Starts the controller, sends it the script, and only then starts the plant, which begins the walk: so every
+    /// request arrives in time.
     fn start(
         &self,
         instance: &Instance,

@@ -55,8 +55,8 @@ impl JointMap {
     /// Reads a map for a URDF.
     ///
     /// # Errors
-    /// Every mistake in the map: also joints that the URDF does not have, that cannot turn, or that are mapped twice, and
-    /// movable joints of the URDF that the map does not mention.
+    /// Every mistake in the map: also joints that the URDF does not have, that cannot turn, or that are mapped twice,
+    /// and movable joints of the URDF that the map does not mention.
     pub fn read(map: NamedText, robot: &Robot) -> Result<Self, ConfigErrors> {
         let document = Document::parse(map.text, map.file)?;
         let root = document.root();

@@ -1,7 +1,7 @@
 //! Imports another biped with the same joints from its URDF and a map of its joints: see `docs/import.md`.
 //!
-//! At zero angles all link frames of a mechanism are parallel. So the URDF is put into its straight posture; from then on
-//! joints are points and axes, and links are masses, in one frame. Whichever link the URDF's tree is rooted at, the
+//! At zero angles all link frames of a mechanism are parallel. So the URDF is put into its straight posture; from then
+//! on joints are points and axes, and links are masses, in one frame. Whichever link the URDF's tree is rooted at, the
 //! mechanism's is rooted at the right foot.
 //!
 //! ```text
@@ -40,8 +40,8 @@ pub struct Imported {
 /// Imports a biped from its URDF; `map` tells which joint is which, and adds what a URDF lacks.
 ///
 /// # Errors
-/// All mistakes in the map, with their lines; else everything in the URDF that a mechanism cannot have, with link or joint,
-/// value, and remedy.
+/// All mistakes in the map, with their lines; else everything in the URDF that a mechanism cannot have, with link or
+/// joint, value, and remedy.
 pub fn import(urdf: NamedText, map: NamedText) -> Result<Imported, ImportError> {
     let robot = urdf_rs::read_from_string(urdf.text)
         .map_err(|error| ImportError::new(format!("{}: no URDF: {error}", urdf.file)))?;

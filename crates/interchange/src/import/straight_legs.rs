@@ -1,7 +1,7 @@
 //! Makes legs fit the leg kinematics: hip and ankle turn about one point each, and a straight leg is vertical.
 //!
-//! Moving a joint along its own axis changes nothing. The rest changes the robot, and is done only as far as the map allows:
-//! axes move, masses stay where they are.
+//! Moving a joint along its own axis changes nothing. The rest changes the robot, and is done only as far as the map
+//! allows: axes move, masses stay where they are.
 
 use model::{Joint, Side};
 use nalgebra::Vector3;

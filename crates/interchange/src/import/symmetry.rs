@@ -37,8 +37,8 @@ pub(super) fn symmetrise(
         hinge.place = (own.place + across(other.place)) / 2.0;
         greatest.length((own.place - hinge.place).norm(), || joint.name().to_string());
 
-        // The mirror image of a rotation has the opposite sign. An axis has no direction of its own: as everywhere in this
-        // module, its greatest component is positive.
+        // The mirror image of a rotation has the opposite sign. An axis has no direction of its own: as everywhere in
+        // this module, its greatest component is positive.
         let image = -across(other.axis.into_inner());
         let image = if image.dot(&own.axis) < 0.0 { -image } else { image };
         hinge.axis = Unit::new_normalize(own.axis.into_inner() + image);
@@ -122,8 +122,8 @@ fn across(vector: Vector3<f64>) -> Vector3<f64> {
     Vector3::new(vector.x, -vector.y, vector.z)
 }
 
-/// The joint that carries the mirror image of the link that `joint` carries: the tree goes up the right leg and down the
-/// left one, so that in the legs it is not the partner of `joint`.
+/// The joint that carries the mirror image of the link that `joint` carries: the tree goes up the right leg and down
+/// the left one, so that in the legs it is not the partner of `joint`.
 fn carried_by_partner(joint: Joint) -> Joint {
     match joint {
         Joint::FootRoll => joint,

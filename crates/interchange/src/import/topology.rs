@@ -1,5 +1,5 @@
-//! Converts a URDF's tree to the mechanism's: links between its joints are combined, and the tree is rooted at the right
-//! foot.
+//! Converts a URDF's tree to the mechanism's: links between its joints are combined, and the tree is rooted at the
+//! right foot.
 
 use model::{Joint, PerJoint};
 use nalgebra::{Unit, Vector3};
@@ -94,7 +94,8 @@ fn lumps(robot: &Robot, map: &JointMap, poses: &LinkPoses) -> Vec<usize> {
     lumps
 }
 
-/// Traverses the tree from the right foot, which is the link at the right ankle's roll joint that is not at its pitch joint.
+/// Traverses the tree from the right foot, which is the link at the right ankle's roll joint that is not at its pitch
+/// joint.
 fn from_right_foot(map: &JointMap, poses: &LinkPoses, lumps: &[usize]) -> Option<PerJoint<Option<Reached>>> {
     let sides = |joint: Joint| map.joints[joint].map(|mapped| poses.ends[mapped.index].map(|link| lumps[link]));
     let (roll, pitch) = (sides(Joint::RightAnkleRoll)?, sides(Joint::RightAnklePitch)?);

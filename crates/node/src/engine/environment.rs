@@ -1,7 +1,7 @@
 //! The Python environment in which MuJoCo runs, created on first use.
 //!
-//! It lies in the user's cache folder, one for each list of packages, together with the script that runs in it. If several
-//! walks start at once, a lock lets one create it while the others wait.
+//! It lies in the user's cache folder, one for each list of packages, together with the script that runs in it. If
+//! several walks start at once, a lock lets one create it while the others wait.
 
 use std::fs::{self, File};
 use std::hash::{DefaultHasher, Hash, Hasher};

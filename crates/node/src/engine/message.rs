@@ -8,8 +8,8 @@ use plant::{EngineState, RobotState};
 /// Numbers in a setpoint: angles (rad), rates (rad/s) and feed-forward torques (N·m) of the 20 joints.
 pub(super) const SETPOINT_LEN: usize = 3 * Joint::COUNT;
 /// Numbers in a state: of the right sole position, quaternion w x y z, angular rate, velocity; of the joints angles and
-/// rates; of the ground force and moment on the right and on the left foot, about the right sole's origin; motor torques.
-/// All but the joints' in world axes, in SI units.
+/// rates; of the ground force and moment on the right and on the left foot, about the right sole's origin; motor
+/// torques. All but the joints' in world axes, in SI units.
 pub(super) const STATE_LEN: usize = 3 + 4 + 3 + 3 + 2 * Joint::COUNT + 2 * 6 + Joint::COUNT;
 
 const SIZE: usize = size_of::<f64>();

@@ -2,8 +2,8 @@
 //!
 //! An engine is a process that communicates through its stdin and stdout. It receives the robot as one line of JSON and
 //! then one setpoint per control period, which it answers with a state (little-endian doubles, see
-//! `tools/mujoco_plant/plant.py`). Services, clock, sensors, faults and recording stay in this process, so that both plants
-//! differ in nothing but physics, and a run in lockstep depends on nothing but its inputs.
+//! `tools/mujoco_plant/plant.py`). Services, clock, sensors, faults and recording stay in this process, so that both
+//! plants differ in nothing but physics, and a run in lockstep depends on nothing but its inputs.
 
 mod environment;
 mod external_engine;

@@ -1,5 +1,5 @@
-//! Balance over time: zero-moment point, centre of mass and divergent component of motion, planned and measured, with the
-//! soles on the ground.
+//! Balance over time: zero-moment point, centre of mass and divergent component of motion, planned and measured, with
+//! the soles on the ground.
 
 use dynamics::Tree;
 use model::{Mechanism, Side};
@@ -66,7 +66,8 @@ pub fn balance_over_time(log: &RunLog, mechanism: &Mechanism) -> String {
     picture("Balance over the feet, planned and measured", log, mechanism, shown, HEIGHT, panels.into())
 }
 
-/// Axes of the picture on the floor: along the mean direction of the soles in the middle of the shown time, and across it.
+/// Axes of the picture on the floor: along the mean direction of the soles in the middle of the shown time, and across
+/// it.
 struct FloorView {
     origin: Vector2<f64>,
     world_to_floor: Rotation2<f64>,

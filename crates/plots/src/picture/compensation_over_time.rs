@@ -1,5 +1,5 @@
-//! Compensation over time: angles that plan and feedback add to the sum of the modifications, at the joints at which the
-//! paper adds its leans.
+//! Compensation over time: angles that plan and feedback add to the sum of the modifications, at the joints at which
+//! the paper adds its leans.
 
 use model::Mechanism;
 

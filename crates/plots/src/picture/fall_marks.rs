@@ -43,8 +43,8 @@ impl FallMarks {
         }
     }
 
-    /// Draws a cross on the floor where the centre of mass was at the fall, and a diamond where the capture point left the
-    /// soles.
+    /// Draws a cross on the floor where the centre of mass was at the fall, and a diamond where the capture point left
+    /// the soles.
     pub(super) fn draw_on_floor(&self, chart: &mut Chart, log: &RunLog) {
         let Some(fall) = self.0 else { return };
         if let Some(row) = log.plant_at(fall.time_s) {

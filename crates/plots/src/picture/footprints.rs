@@ -1,5 +1,5 @@
-//! The floor from above, in the style of the paper's figures: footprints, and the paths of zero-moment point, centre of mass
-//! and divergent component of motion.
+//! The floor from above, in the style of the paper's figures: footprints, and the paths of zero-moment point, centre of
+//! mass and divergent component of motion.
 
 use model::Mechanism;
 

@@ -1,7 +1,8 @@
 //! Plots of a run and of the nominal half-step as SVG. Each is a function that returns the file's text.
 //!
-//! One colour has one meaning in all of them, see [`colours`]: right blue, left orange, the zero-moment point black, the
-//! centre of mass green, the divergent component of motion and its feedback purple, planned values grey or pale, a fall red.
+//! One colour has one meaning in all of them, see [`colours`]: right blue, left orange, the zero-moment point black,
+//! the centre of mass green, the divergent component of motion and its feedback purple, planned values grey or pale, a
+//! fall red.
 
 mod balance_over_time;
 pub mod chart;

@@ -14,8 +14,8 @@ const ZMP_RING: f64 = 0.005;
 /// Scale of the picture (px/m).
 const SCALE: f64 = 1000.0;
 
-/// Draws the support sole at O with the left sole before and after its swing, to scale. The zero-moment point is computed
-/// from the table's motion by inverse dynamics.
+/// Draws the support sole at O with the left sole before and after its swing, to scale. The zero-moment point is
+/// computed from the table's motion by inverse dynamics.
 pub fn nominal_footprints(table: &NominalTable, mechanism: &Mechanism) -> String {
     let tree = Tree::new(mechanism);
     let mut chart = Chart::new("x [m]", "y [m]");

@@ -29,8 +29,8 @@ struct Posture {
     travelled: f64,
 }
 
-/// Draws figures over some seconds in the middle of the walk, or before its first fall. A turning walk is unrolled along the
-/// line through the middles between the feet, and viewed across it.
+/// Draws figures over some seconds in the middle of the walk, or before its first fall. A turning walk is unrolled
+/// along the line through the middles between the feet, and viewed across it.
 pub fn stick_walk(log: &RunLog, mechanism: &Mechanism) -> String {
     let rows = rows_between(log, stretch(log));
     let postures = postures(rows, mechanism);

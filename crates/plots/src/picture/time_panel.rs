@@ -11,8 +11,8 @@ use crate::run_log::{ControllerRow, RunLog};
 const SWAP: Pen = Pen::solid("#C9CBDD", 0.8);
 /// More support changes than this would cover everything, and are not marked.
 const SWAPS_MAX: usize = 120;
-/// Share of the values that [`TimePanel::usual`] leaves out at each end of its range: at every support change the zero-moment
-/// point comes from the other foot, far outside the support sole, and would flatten everything else.
+/// Share of the values that [`TimePanel::usual`] leaves out at each end of its range: at every support change the
+/// zero-moment point comes from the other foot, far outside the support sole, and would flatten everything else.
 const LEFT_OUT: f64 = 0.03;
 
 /// Builds a panel over time.

@@ -1,4 +1,5 @@
-//! Zero-moment point in the sole: the paths of all half-steps over each other, which show how much of the sole the walk uses.
+//! Zero-moment point in the sole: the paths of all half-steps over each other, which show how much of the sole the walk
+//! uses.
 
 use dynamics::Tree;
 use model::{Mechanism, Side};
@@ -19,8 +20,8 @@ const SCALE: f64 = 3200.0;
 const GROUND_PEN: Pen = Pen::solid(ZMP, 0.5);
 const PLANNED_PEN: Pen = Pen::solid(PLANNED, 1.4);
 
-/// Draws the true and the planned zero-moment point of all half-steps in single support. The left sole is above the right
-/// one, as for feet that point to the right.
+/// Draws the true and the planned zero-moment point of all half-steps in single support. The left sole is above the
+/// right one, as for feet that point to the right.
 pub fn zmp_in_sole(log: &RunLog, mechanism: &Mechanism) -> String {
     let [mut right, mut left] = Side::BOTH.map(|side| chart(log, mechanism, side));
     right.x_label = "x in the sole [m]".into();

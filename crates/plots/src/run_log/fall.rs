@@ -1,10 +1,10 @@
 //! Falls, and the moment from which they were unavoidable.
 //!
 //! A robot that stands still can come to rest without a step as long as its capture point (the divergent component of
-//! motion) lies in the convex hull of the soles on the ground; walking, it leaves that hull in every half-step and the next
-//! foot catches it. So a fall counts as **unavoidable** from the first instant after which the true capture point stayed
-//! outside the soles on the ground and never came back inside until the fall. A step that is not in the log might have
-//! caught it for a little longer.
+//! motion) lies in the convex hull of the soles on the ground; walking, it leaves that hull in every half-step and the
+//! next foot catches it. So a fall counts as **unavoidable** from the first instant after which the true capture point
+//! stayed outside the soles on the ground and never came back inside until the fall. A step that is not in the log
+//! might have caught it for a little longer.
 
 use dynamics::Tree;
 use model::Mechanism;
@@ -17,8 +17,8 @@ use super::RunLog;
 pub struct Fall {
     /// When the robot had fallen (s).
     pub time_s: f64,
-    /// From when on the fall was unavoidable (s); `None` if the capture point stayed over the soles to the end, as when the
-    /// legs give way.
+    /// From when on the fall was unavoidable (s); `None` if the capture point stayed over the soles to the end, as when
+    /// the legs give way.
     pub unavoidable_s: Option<f64>,
     /// The half-step in which the robot fell, counted from 0.
     pub half_step: u64,
@@ -65,8 +65,8 @@ mod tests {
 
     #[test]
     fn fall_is_unavoidable_from_when_the_capture_point_leaves_the_sole_for_good() {
-        // The toe is at 0.21 m. Out at ticks 5 to 7, back at 8 to 11, then 0.01 m further in each tick of 0.1 s: the capture
-        // point is 0.1 m/s × √(0.9/g) = 0.0303 m ahead.
+        // The toe is at 0.21 m. Out at ticks 5 to 7, back at 8 to 11, then 0.01 m further in each tick of 0.1 s: the
+        // capture point is 0.1 m/s × √(0.9/g) = 0.0303 m ahead.
         let mut log = standing(|tick| match tick {
             5..=7 => 0.5,
             12.. => 0.1 + 0.01 * (tick - 11) as f64,

@@ -17,8 +17,8 @@ pub struct RunLog {
 }
 
 impl RunLog {
-    /// Reads a run: a recording, or the folder that holds it. A truncated recording is read as far as it goes, with a message
-    /// on stderr.
+    /// Reads a run: a recording, or the folder that holds it. A truncated recording is read as far as it goes, with a
+    /// message on stderr.
     ///
     /// # Errors
     /// There is no recording, or it has another version.

@@ -13,8 +13,8 @@ use super::{Fall, FootPlacement, RunLog};
 pub struct Measures {
     /// Half-steps completed.
     pub half_steps: u64,
-    /// Walked distance (m): the length of the line through the middles between consecutive footprints. So the sway of the
-    /// body from foot to foot does not count, and a half-step of the nominal counts its step length.
+    /// Walked distance (m): the length of the line through the middles between consecutive footprints. So the sway of
+    /// the body from foot to foot does not count, and a half-step of the nominal counts its step length.
     pub distance_m: f64,
     /// Change of heading (deg), positive to the left, full circles included. The walk's heading is the mean of two
     /// consecutive footprints', so that a half-finished turn counts half.

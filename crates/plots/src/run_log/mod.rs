@@ -1,8 +1,8 @@
-//! The log of a run, from which pictures and summaries are made: true state of the plant and report of the controller over
-//! time, read from a recording.
+//! The log of a run, from which pictures and summaries are made: true state of the plant and report of the controller
+//! over time, read from a recording.
 //!
-//! It can be written as CSV files for spreadsheets, whose first line has the names of the columns with units. Commanded angles
-//! are in degrees there, joint angles in radians as in the nominal table.
+//! It can be written as CSV files for spreadsheets, whose first line has the names of the columns with units. Commanded
+//! angles are in degrees there, joint angles in radians as in the nominal table.
 
 mod columns;
 mod csv_file;

@@ -78,7 +78,8 @@ pub struct ControllerRow {
     /// Planned ZMP in support coordinates (m); `None` without a plan.
     #[serde(serialize_with = "columns::maybe_point")]
     pub zmp_planned: Option<Vector2<f64>>,
-    /// Signed distance of the measured ZMP from the edge of the support polygon (m), negative outside; `None` in the air.
+    /// Signed distance of the measured ZMP from the edge of the support polygon (m), negative outside; `None` in the
+    /// air.
     pub margin: Option<f64>,
     /// Feedback at the support ankle about x (rad); in degrees in the file.
     #[serde(serialize_with = "columns::degrees")]
@@ -92,7 +93,7 @@ pub struct ControllerRow {
     /// Planned centre of mass in support coordinates; `None` without a plan.
     #[serde(serialize_with = "columns::centre_of_mass")]
     pub com_planned: Option<ComState>,
-    /// Sensed centre of mass, likewise; `None` when the feet carry too little, and in the tick of a swap.
+    /// Estimated centre of mass, likewise; `None` if the feet carry too little, and in the tick of a support change.
     #[serde(serialize_with = "columns::centre_of_mass")]
     pub com_measured: Option<ComState>,
     /// One bit for each fault present.

@@ -32,8 +32,9 @@ impl PlantRow {
 }
 
 impl RunLog {
-    /// The true divergent component of motion `c + ċ·√(z/g)` (the capture point) at a row of the plant, in world coordinates
-    /// (m). The log has no velocities: `ċ` is the difference of the rows before and after. `None` if there is only one row.
+    /// The true divergent component of motion `c + ċ·√(z/g)` (the capture point) at a row of the plant, in world
+    /// coordinates (m). The log has no velocities: `ċ` is the difference of the rows before and after. `None` if there
+    /// is only one row.
     pub fn divergent_component(&self, row: usize) -> Option<Vector2<f64>> {
         let here = self.plant.get(row)?;
         let before = &self.plant[row.saturating_sub(1)];
