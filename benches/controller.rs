@@ -11,7 +11,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use gait::{NominalTable, Start, Walk};
 use model::{Mechanism, Wrench};
 use nalgebra::{Quaternion, Vector3};
-use pattern::PatternGenerator;
+use pattern::{Gait, PatternGenerator};
 
 fn controller(criterion: &mut Criterion) {
     let config = Path::new(env!("CARGO_MANIFEST_DIR")).join("../config");

@@ -1,5 +1,5 @@
-//! Controller and simulated robot in one process, period by period, without shared memory: ten seconds of walking with a
-//! turn on the way.
+//! Controller and simulated robot in one process, period by period, without shared memory: ten seconds of walking with
+//! a turn on the way.
 //!
 //! ```text
 //! cargo run --release --example walk_in_one_process

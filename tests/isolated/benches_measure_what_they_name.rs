@@ -31,7 +31,7 @@ fn benches_measure_computing_latency_and_jitter() {
     let _alone = alone();
     let wanted: [(&str, &[&str]); 3] = [
         (
-            "compute --rounds 1 --turn 20ms",
+            "compute --rounds 1 --slice 20ms",
             &["Newton–Euler", "forward dynamics", "plant", "controller tick", "preview", "forecast"],
         ),
         (

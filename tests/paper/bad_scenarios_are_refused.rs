@@ -37,7 +37,7 @@ fn each_mistake_of_a_scenario_is_named() {
     for (good, bad, expected) in [
         ("figure = 14", "figure = 15", "figure_14.toml:1:10: figure = 15: must be 14, the number in the file's name"),
         (r#""in""#, r#""yes""#, r#"paper_verdict = "yes": must be one of "in", "out", "not stated""#),
-        ("turn_deg = 0", "turn = 0", "unknown key, write `turn_deg`"),
+        ("turn_deg = 0", "turn = 0", "unknown key; write `turn_deg`"),
         ("turn_deg = 0", "turn_deg = 90", "figure_14.toml:6:12: request.turn_deg = 90: must lie between -45 and 45"),
         ("speed = 1.1", "speed = 0", "request.speed = 0: must lie between 0.1 and 2"),
         ("speed = 1.1\n", "", "request.speed: is missing"),

@@ -1,8 +1,8 @@
 //! Goal: the computed lean is the least that maximises the least margin of the half-step, and changes smoothly with the
 //! command: the mean lean of neighbouring commands keeps nearly as much margin between them.
 //!
-//! Method: against all leans of a grid around it, and against the paper's own degrees; the mean against what is computed
-//! afresh.
+//! Method: against all leans of a grid around it, and against the paper's own degrees; the mean against what is
+//! computed afresh.
 
 use dynamics::Tree;
 use gait::Robot;

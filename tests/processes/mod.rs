@@ -9,6 +9,7 @@ mod a_second_controller_is_refused;
 mod a_silent_stream_stops_the_walk;
 mod a_stream_changes_the_walk_while_it_runs;
 mod bad_configuration_is_refused_with_every_error;
+mod every_error_is_the_pinned_text;
 mod the_committed_nominal_regenerates_bit_for_bit;
 mod the_next_start_cleans_up_after_a_killed_process;
 mod two_processes_walk_in_lockstep;

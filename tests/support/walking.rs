@@ -113,7 +113,8 @@ impl Walking {
         tick
     }
 
-    /// Requests something: the report of the tick that answers, which is this one or, if it has to wait for a swap, one soon.
+    /// Requests something: the report of the tick that answers, which is this one or, if it has to wait for a support
+    /// change, one soon.
     pub fn ask(&mut self, request: GaitChange, intent: Option<Intent>) -> Tick {
         let mut report = self.tick(Some((&request, intent)));
         for _ in 0..ANSWERED_WITHIN {

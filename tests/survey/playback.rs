@@ -1,7 +1,7 @@
 //! Playback: the modified half-step with the paper's constant lean, played to the plant without a controller.
 //!
-//! The lean flips its side at every swap. No body can jump, so it goes over within [`FLIP`]. The ankle feedback that
-//! the controller has may be switched on, so that a fall is not for lack of it.
+//! The lean flips its side at every support change. No body can jump, so it goes over within [`FLIP`]. The ankle
+//! feedback that the controller has may be switched on, so that a fall is not for lack of it.
 
 use std::sync::Arc;
 
@@ -26,8 +26,8 @@ pub(crate) struct Playback {
     tree: Tree,
     walk: Walk,
     lean: PaperLean,
-    /// Since the last swap (s).
-    since_swap: f64,
+    /// Since the last support change (s).
+    since_support_change: f64,
     plan: ReferenceDynamics,
     feedback: DcmFeedback,
     kinematics: Kinematics,
@@ -58,7 +58,7 @@ impl Playback {
             start,
             feedback: DcmFeedback::new(mechanism, feedback),
             kinematics: Kinematics::default(),
-            since_swap: f64::INFINITY,
+            since_support_change: f64::INFINITY,
             tree,
             walk,
             lean,
@@ -93,10 +93,10 @@ impl Playback {
         let sensed = self.centre_of_mass();
         let sensed = BalanceState { com: sensed, tilt: Vector2::zeros(), zmp: None };
         self.feedback.update(&BalanceState::planned(&self.plan), Some(&sensed), false, PERIOD);
-        self.since_swap += PERIOD;
+        self.since_support_change += PERIOD;
         if self.walk.advance(PERIOD) {
             self.feedback.change_support(self.walk.mirror());
-            self.since_swap = 0.0;
+            self.since_support_change = 0.0;
         }
 
         let leaning = self.walk.motion() + self.flipped();
@@ -113,7 +113,7 @@ impl Playback {
     fn flipped(&self) -> Motion {
         let wanted = Motion::at_rest(self.lean.offsets());
         let before = wanted.mirrored(self.walk.mirror());
-        interpolate(&before, &wanted, (self.since_swap / FLIP).min(1.0), FLIP)
+        interpolate(&before, &wanted, (self.since_support_change / FLIP).min(1.0), FLIP)
     }
 
     fn centre_of_mass(&mut self) -> ComState {

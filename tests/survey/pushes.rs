@@ -69,7 +69,8 @@ fn demanded(direction: Direction) -> f64 {
     }
 }
 
-/// The largest impulse below all that fell it. Where a robot falls is not monotonic: so all from none upwards are tried.
+/// The largest impulse below all that fell it. Where a robot falls is not monotonic: so all from none upwards are
+/// tried.
 fn largest_survived(options: &Options, request: GaitChange, phase: f64, direction: Direction) -> f64 {
     let Some(walking) = walk_to(options.seed, request, options.half_step, phase) else { return 0.0 };
     let mut survived = 0.0;

@@ -9,7 +9,7 @@ use plant::Plant;
 
 use crate::asked;
 
-/// Between swaps: at a swap the ZMP goes from foot to foot.
+/// Between support changes: at a support change the ZMP goes from foot to foot.
 pub(crate) const BETWEEN_SWAPS: std::ops::Range<f64> = 0.1..0.9;
 
 /// Controller and plant, and what was seen of them.
@@ -18,7 +18,7 @@ pub(crate) struct Watched {
     pub walking: Walking,
     /// The last tick's.
     pub report: Tick,
-    /// Least measured margin between swaps while walking (m).
+    /// Least measured margin between support changes while walking (m).
     pub least_margin: f64,
     /// Largest feedback angle of the bearing ankle (rad).
     pub largest_lean: f64,

@@ -1,4 +1,6 @@
 //! Lines have at most 120 characters, even where rustfmt cannot break them.
+//!
+//! A raw string that is a line of another format, e.g. of XML, may be longer.
 
 use crate::offence::Offence;
 use crate::sources::Sources;
@@ -12,7 +14,7 @@ pub fn too_long(sources: &Sources) -> Vec<Offence> {
     for (file, text) in sources.iter() {
         for (index, line) in text.lines().enumerate() {
             let length = line.chars().count();
-            if length > LENGTH_MAX {
+            if length > LENGTH_MAX && !line.trim_start().starts_with("r#\"") {
                 offences.push(Offence::new(file, index + 1, format!("{length} characters")));
             }
         }
@@ -23,15 +25,12 @@ pub fn too_long(sources: &Sources) -> Vec<Offence> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::assert_within;
-
-    /// Long lines that remain to be broken.
-    const KNOWN_LONG: usize = 149;
+    use crate::assert_none;
 
     #[test]
     fn no_line_is_longer_than_120_characters() {
         let remedy = "Break the line; rustfmt breaks neither comments nor strings nor macro calls.";
-        assert_within(KNOWN_LONG, &too_long(&Sources::of_repository()), remedy);
+        assert_none(&too_long(&Sources::of_repository()), remedy);
     }
 
     #[test]

@@ -32,16 +32,6 @@ pub fn assert_none(offences: &[Offence], remedy: &str) {
     assert!(offences.is_empty(), "{}\n{remedy}", list(offences));
 }
 
-/// Fails if there are more offences than `known`; prints the new budget if there are fewer.
-#[track_caller]
-pub fn assert_within(known: usize, offences: &[Offence], remedy: &str) {
-    let found = offences.len();
-    assert!(found <= known, "{}\n{found} found, {known} known. {remedy}", list(offences));
-    if found < known {
-        println!("{found} left: lower the budget of {known} to {found}");
-    }
-}
-
 fn list(offences: &[Offence]) -> String {
     let mut lines: Vec<String> = offences.iter().map(Offence::to_string).collect();
     lines.sort();

@@ -97,7 +97,7 @@ fn reports_name_the_fault_of_a_bad_measurement() {
     assert!(faults.contains(Fault::MeasurementOutOfOrder));
 }
 
-/// Silence, and the same sample again and again, end the walk at the next swap.
+/// Silence, and the same sample again and again, end the walk at the next support change.
 #[test]
 fn missing_or_repeated_measurements_end_the_walk() {
     for frozen in [None, Some(good(3))] {

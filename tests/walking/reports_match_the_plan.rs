@@ -45,9 +45,9 @@ fn planned_com_velocity_is_the_rate_of_the_planned_com() {
 fn measured_com_is_near_the_plan_and_unknown_in_the_tick_of_a_support_change() {
     let reports = reports(Compensation::Preview, 2.0);
     for pair in reports.windows(2) {
-        let swaps = pair[0].report.half_step.index != pair[1].report.half_step.index;
-        assert_eq!(pair[1].report.com_measured.is_none(), swaps, "{:?}", pair[1].report.half_step);
-        assert!(!swaps || pair[1].report.zmp_in_support.is_none());
+        let changes_support = pair[0].report.half_step.index != pair[1].report.half_step.index;
+        assert_eq!(pair[1].report.com_measured.is_none(), changes_support, "{:?}", pair[1].report.half_step);
+        assert!(!changes_support || pair[1].report.zmp_in_support.is_none());
         if let Some(sensed) = pair[1].report.com_measured {
             let planned = pair[1].report.com_planned.expect("a walking robot has a plan");
             let error = sensed.divergent_component() - planned.divergent_component();

@@ -59,7 +59,7 @@ fn turns_while_stepping_in_place() {
         let mut walking = Walking::begin(2);
         walking.walk(2.0);
         in_place(&mut walking, turn);
-        // From a swap after which the feet are parallel to another one.
+        // From a support change after which the feet are parallel to another one.
         let at_swap = |walking: &mut Walking, index: u64| {
             while walking.tick(None).report.half_step.index < index {}
             walking.plant.truth()

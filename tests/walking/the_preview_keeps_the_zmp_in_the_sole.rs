@@ -1,8 +1,8 @@
 //! What the preview asks of the joints is smooth, lands the swinging sole softly, and keeps the ZMP of the whole body
 //! in the bearing sole, for random commands from all that is granted; the plain sum of the modifications does not.
 //!
-//! Method: no plant, no feedback; inverse dynamics of what is asked, between the swaps (from a tenth of the half-step
-//! to nine tenths: at a swap the point goes from foot to foot).
+//! Method: no plant, no feedback; inverse dynamics of what is asked, between the support changes (from a tenth of the
+//! half-step to nine tenths: at a support change the point goes from foot to foot).
 
 use controller::Compensation;
 use dynamics::{Kinematics, NewtonEuler, Tree, zmp};
@@ -40,7 +40,8 @@ fn play(seed: u64, compensation: Compensation, mut look: impl FnMut(&dyn Gait, &
     }
 }
 
-/// Share of the instants between swaps in which the ZMP lies in the sole, and how far out it goes at most (m).
+/// Share of the instants between support changes in which the ZMP lies in the sole, and how far out it goes at most
+/// (m).
 fn in_the_sole(seed: u64, compensation: Compensation) -> (f64, f64) {
     let mechanism = mechanism();
     let tree = Tree::new(&mechanism);

@@ -23,9 +23,9 @@ fn walks_on_after_pushes_from_any_side_at_any_phase() {
     }
 }
 
-/// Nobody survives everything: the check can fail.
+/// The check above can fail.
 #[test]
-fn but_not_whatever_the_push() {
+fn a_push_beyond_all_limits_makes_the_robot_fall() {
     let walking = walk_to(7, GaitChange::default(), 5, 0.5).expect("the nominal walk goes on");
     assert!(!survives(&walking, Direction::ToSwing, 60.0));
 }

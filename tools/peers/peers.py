@@ -148,7 +148,7 @@ def target():
 
 def ours(halfstep):
     """The least means of `halfstep bench compute`."""
-    found = json.loads(run([halfstep, "bench", "compute", "--rounds", "1", "--turn", "200ms", "--json"], cwd=TOP))
+    found = json.loads(run([halfstep, "bench", "compute", "--rounds", "1", "--slice", "200ms", "--json"], cwd=TOP))
     return [(series["name"], series["p50_ns"]) for series in found["series"]]
 
 

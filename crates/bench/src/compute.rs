@@ -14,7 +14,7 @@ use gait::{NominalRow, NominalTable, Start, Walk};
 use model::{JointVector, Mechanism, Motion, PerJoint};
 use nalgebra::{Isometry3, Vector3};
 use paper::GroundSplit;
-use pattern::PatternGenerator;
+use pattern::{Gait, PatternGenerator};
 use plant::Plant;
 use runtime::{Scheduling, now_ns};
 
@@ -78,7 +78,7 @@ pub fn compute(options: &ComputeOptions) -> Result<BenchReport, BenchError> {
         ratio: tick.quantile(0.99) / tick.quantile(0.5),
         at_most: 1.5,
     });
-    let notes = vec![format!("Each number is the least of {} rounds that take turns.", options.rounds)];
+    let notes = vec![format!("Each number is the minimum of {} interleaved rounds.", options.rounds)];
     let machine = Machine::of_this_process();
     Ok(BenchReport { what: "compute", machine, series, ratios: ratios.into_iter().collect(), notes })
 }

@@ -97,7 +97,8 @@ pub fn exchange(
         ratios.push(Ratio { of: ours.group.clone(), ..Ratio::of(ours, ring, 0.5, 1.6) });
     }
     let notes = vec![format!(
-        "Each number is the median of {} rounds that take turns, each ratio that of the rounds' ratios; {} B there, {} B back.",
+        "Each number is the median of {} interleaved rounds, each ratio that of the rounds' ratios; {} B there, \
+         {} B back.",
         options.rounds,
         size_of::<MeasurementMessage>(),
         size_of::<SetpointMessage>()

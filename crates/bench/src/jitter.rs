@@ -74,7 +74,9 @@ pub fn jitter(options: &JitterOptions) -> Result<BenchReport, BenchError> {
         ratios.push(Ratio { of, to, number: "time".to_owned(), ratio: share, at_most: 0.2 });
     }
     notes.push(format!(
-        "Each number is the median of {} segments of {:?} that take turns, at {:?}, each ratio that of the segments' ratios. p99.9 and max beside the noise floor: \
+        "Each number is the median of {} interleaved segments of {:?}, at {:?}, each ratio that of the segments' \
+         ratios. \
+         p99.9 and max beside the noise floor: \
          what the machine does to a thread that never sleeps.",
         options.segments, options.segment, options.period
     ));

@@ -21,7 +21,7 @@ pub struct Machine {
     pub virtualised: bool,
     /// The kernel's clock source.
     pub clock: String,
-    /// Load average of the last minute.
+    /// Load average of the last minute (-).
     pub load: f64,
 }
 
@@ -61,7 +61,8 @@ impl fmt::Display for Machine {
         let kind = if *virtualised { "virtual" } else { "physical" };
         write!(
             out,
-            "{processor}, {cores} cores, {kind}; Linux {kernel} {preemption}, governor {governor}, clock {clock}, load {load:.1}"
+            "{processor}, {cores} cores, {kind}; Linux {kernel} {preemption}, governor {governor}, \
+             clock {clock}, load {load:.1}"
         )
     }
 }

@@ -12,7 +12,8 @@ pub fn bench_page(report: &BenchReport) -> String {
     let mut html = format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>halfstep bench {what}</title>\n\
          <style>body{{font-family:Helvetica,Arial,sans-serif;max-width:60em;margin:2em auto;padding:0 1em}}\
-         pre{{overflow-x:auto}}img{{max-width:100%}}</style></head>\n<body><h1>halfstep bench {what}</h1>\n<pre>{text}</pre>\n",
+         pre{{overflow-x:auto}}img{{max-width:100%}}</style></head>\n<body><h1>halfstep bench \
+         {what}</h1>\n<pre>{text}</pre>\n",
         what = report.what,
         text = escape(report.to_string()),
     );

@@ -13,27 +13,27 @@ use wire::{InstanceName, Latest};
 
 use crate::BenchError;
 
-type Ipc = ipc::Service;
+type IpcService = ipc::Service;
 
 /// Creates and opens services beside the instance's other files, so that they are removed together.
 pub(crate) struct Services {
-    node: Node<Ipc>,
+    node: Node<IpcService>,
     /// Whether services are created, or opened.
     makes: bool,
 }
 
 /// One end of two blackboards with one entry each, one for each direction.
 pub(crate) struct Blackboards<Out: Latest, In: Latest> {
-    out: EntryHandleMut<Ipc, u64, Out>,
-    into: EntryHandle<Ipc, u64, In>,
+    out: EntryHandleMut<IpcService, u64, Out>,
+    into: EntryHandle<IpcService, u64, In>,
     last: BlackboardValue<In>,
-    _ports: (Writer<Ipc, u64>, Reader<Ipc, u64>),
+    _ports: (Writer<IpcService, u64>, Reader<IpcService, u64>),
 }
 
 /// One end of two publish–subscribe services, one for each direction, in which the newest message replaces older ones.
 pub(crate) struct PubSub<Out: Latest, In: Latest> {
-    out: Publisher<Ipc, Out, ()>,
-    into: Subscriber<Ipc, In, ()>,
+    out: Publisher<IpcService, Out, ()>,
+    into: Subscriber<IpcService, In, ()>,
 }
 
 const KEY: u64 = 0;
@@ -79,7 +79,7 @@ impl Services {
     fn blackboard<M: Latest>(
         &self,
         name: &str,
-    ) -> Result<iceoryx2::service::port_factory::blackboard::PortFactory<Ipc, u64>, BenchError> {
+    ) -> Result<iceoryx2::service::port_factory::blackboard::PortFactory<IpcService, u64>, BenchError> {
         let builder = self.node.service_builder(&name_of(name)?);
         if self.makes {
             builder.blackboard_creator::<u64>().add(KEY, M::EMPTY).create().map_err(failed)
@@ -91,7 +91,7 @@ impl Services {
     fn publishing<M: Latest>(
         &self,
         name: &str,
-    ) -> Result<iceoryx2::service::port_factory::publish_subscribe::PortFactory<Ipc, M, ()>, BenchError> {
+    ) -> Result<iceoryx2::service::port_factory::publish_subscribe::PortFactory<IpcService, M, ()>, BenchError> {
         let builder = self.node.service_builder(&name_of(name)?).publish_subscribe::<M>();
         builder
             .enable_safe_overflow(true)

@@ -18,7 +18,7 @@ impl Plain for wire::SetpointMessage {}
 
 /// One end of a ring of messages `M`.
 pub(crate) struct SharedRing<M: Plain> {
-    slots: *mut Slot<M>,
+    slots: *mut RingSlot<M>,
     next: u64,
     /// Path of the file in the end that created it, which removes it.
     made: Option<PathBuf>,
@@ -26,7 +26,7 @@ pub(crate) struct SharedRing<M: Plain> {
 }
 
 #[repr(C, align(64))]
-struct Slot<M> {
+struct RingSlot<M> {
     number: AtomicU64,
     message: M,
 }
@@ -60,7 +60,7 @@ impl<M: Plain> SharedRing<M> {
     }
 
     fn length() -> usize {
-        SLOTS as usize * size_of::<Slot<M>>()
+        SLOTS as usize * size_of::<RingSlot<M>>()
     }
 
     /// Writes the next message.
@@ -85,7 +85,7 @@ impl<M: Plain> SharedRing<M> {
         Some(message)
     }
 
-    fn slot(&self) -> *mut Slot<M> {
+    fn slot(&self) -> *mut RingSlot<M> {
         // SAFETY: the remainder is within the mapping.
         unsafe { self.slots.add((self.next % SLOTS) as usize) }
     }

@@ -47,7 +47,8 @@ impl fmt::Display for WalkSummary {
         };
         writeln!(
             out,
-            "{half_steps} half-steps in {:.1} s: {distance_m:.2} m, turned {heading_deg:+.1}°, least margin {margin}, {falls}",
+            "{half_steps} half-steps in {:.1} s: {distance_m:.2} m, turned {heading_deg:+.1}°, least margin {margin}, \
+             {falls}",
             self.duration_s
         )?;
         if let Some(Fall { time_s, unavoidable_s, half_step }) = fall {

@@ -24,7 +24,7 @@
 //! assert_eq!(
 //!     errors.to_string(),
 //!     "lean.toml:2:8: lean.gain = -3: must be greater than 0\n\
-//!      lean.toml:3:1: lean.angle_max = 5.0: unknown key, write `angle_max_deg`"
+//!      lean.toml:3:1: lean.angle_max = 5.0: unknown key; write `angle_max_deg`"
 //! );
 //! ```
 

@@ -33,10 +33,10 @@ fn visit(source: &Source<'_>, path: &str, table: &DeTable<'_>, errors: &mut Vec<
             let message = match meant(name, &free) {
                 Some(meant) => {
                     source.notes.borrow_mut().missing.retain(|m| m.table != path || m.key != meant);
-                    format!("unknown key, write `{meant}`")
+                    format!("unknown key; write `{meant}`")
                 }
-                None if expected.is_empty() => "unknown key, none is expected here".to_string(),
-                None => format!("unknown key, expected are {}", expected.join(", ")),
+                None if expected.is_empty() => "unknown key; none is expected here".to_string(),
+                None => format!("unknown key; expected one of {}", expected.join(", ")),
             };
             errors.push(source.error(&key_path, key.span(), found, message));
             continue;

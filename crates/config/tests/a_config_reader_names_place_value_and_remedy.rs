@@ -92,19 +92,19 @@ port = 80
 "#;
     let expected = concat!(
         r#"servo.toml:1:8: name = 3: must be a text in quotes
-servo.toml:3:1: servo.stiffness = 5000: unknown key, write `stiffness_n_m_per_rad`
+servo.toml:3:1: servo.stiffness = 5000: unknown key; write `stiffness_n_m_per_rad`
 servo.toml:4:17: servo.angle_max_deg = 100: must lie between 0 and 90
 servo.toml:5:13: servo.period_ms = 0: must be greater than 0
 servo.toml:6:11: servo.samples = 65: must be a whole number between 1 and 64
 servo.toml:7:11: servo.enabled = "yes": must be true or false
 servo.toml:8:8: servo.mode = "hard": must be one of "stiff", "soft"
 servo.toml:9:9: servo.order = ["torque", "torque"]: must be an array that names each of "angle", "rate", "torque" once
-servo.toml:10:1: servo.speed = 1: unknown key, expected are stiffness_n_m_per_rad, angle_max_deg, period_ms, "#,
+servo.toml:10:1: servo.speed = 1: unknown key; expected one of stiffness_n_m_per_rad, angle_max_deg, period_ms, "#,
         r#"samples, enabled, mode, order
 servo.toml:12:11: push[0].force_n = nan: must be a finite number
-servo.toml:14:1: push[1].force_kg = 2: unknown key, write `force_n`
-servo.toml:15:1: push[1].when = 3: unknown key, expected are force_n
-servo.toml:16:2: server: unknown key, expected are servo, name, push"#
+servo.toml:14:1: push[1].force_kg = 2: unknown key; write `force_n`
+servo.toml:15:1: push[1].when = 3: unknown key; expected one of force_n
+servo.toml:16:2: server: unknown key; expected one of servo, name, push"#
     );
     assert_eq!(servo(text).unwrap_err().to_string(), expected);
 }

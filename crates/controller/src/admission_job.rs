@@ -1,10 +1,10 @@
 //! An admission job: what of a request can be granted, found by simulating the coming half-steps beside the loop.
 //!
-//! The controller opens it with a copy of its pattern generator. The driver takes it, evaluates it (at once in lockstep, on
-//! another thread in real time) and completes it. That takes milliseconds and allocates nothing.
+//! The controller opens it with a copy of its pattern generator. The driver takes it, evaluates it (at once in
+//! lockstep, on another thread in real time) and completes it. That takes milliseconds and allocates nothing.
 
 use interface::{ActiveLimit, Command, GaitChange, Intent, Objection, Reason, Request, Verdict};
-use pattern::{Feasibility, FeasibilityCheck, Limit, LimitViolation, PatternGenerator};
+use pattern::{Feasibility, FeasibilityCheck, Gait, Limit, LimitViolation, PatternGenerator};
 
 use crate::pattern::goal_of;
 
@@ -12,8 +12,8 @@ use crate::pattern::goal_of;
 const KNOTS: usize = 280;
 /// Bisections between the command in force and the requested one in search of what can be granted.
 const BISECTIONS: usize = 4;
-/// A request that would violate a limit this shortly before a support change (s) is evaluated again after it: by then the
-/// centre of mass has moved over the next foot.
+/// A request that would violate a limit this shortly before a support change (s) is evaluated again after it: by then
+/// the centre of mass has moved over the next foot.
 const LATE: f64 = 0.2;
 /// Largest loss of margin against walking on unchanged (m), where walking on violates a limit itself.
 const MARGIN_LOSS_MAX: f64 = 0.002;
@@ -74,8 +74,8 @@ impl AdmissionJob {
         self.revision = generator.revision();
     }
 
-    /// Decides what can be granted, unless that is decided, and plans the walk with it. The decision may have to wait for a
-    /// support change; then the job stays undecided, to be renewed and evaluated again.
+    /// Decides what can be granted, unless that is decided, and plans the walk with it. The decision may have to wait
+    /// for a support change; then the job stays undecided, to be renewed and evaluated again.
     pub fn evaluate(&mut self) {
         let Some(decision) = self.decision.or_else(|| self.decide()) else { return };
         let index = self.generator.half_step().index;
@@ -156,7 +156,7 @@ impl AdmissionJob {
 
 /// Applies what the configured range admits of a change, and the intent.
 fn apply(generator: &mut PatternGenerator, change: &GaitChange, intent: Option<Intent>) -> Decision {
-    let gait::Admission { verdict, objection, granted, effect_half_step } = generator.admit(change);
+    let gait::RangeCheck { verdict, objection, granted, effect_half_step } = generator.admit(change);
     if verdict != Verdict::Refused
         && let Some(goal) = intent.and_then(goal_of)
     {

@@ -1,11 +1,11 @@
 //! The command arbiter: which source has control authority, and for how long.
 //!
-//! A *streamed* request gives its source **control authority** for the request's command timeout. Each further request of
-//! the source, an empty heartbeat included, restarts the timeout. A source that sends nothing for longer loses its
+//! A *streamed* request gives its source **control authority** for the request's command timeout. Each further request
+//! of the source, an empty heartbeat included, restarts the timeout. A source that sends nothing for longer loses its
 //! authority and its requests are obsolete: the robot is to stop. The next source that sends takes authority again.
 //!
-//! While a source has authority, sources of lower priority are refused, except that a stop is granted to everyone. Sources
-//! of higher priority are granted what they request; with a stream they take authority over.
+//! While a source has authority, sources of lower priority are refused, except that a stop is granted to everyone.
+//! Sources of higher priority are granted what they request; with a stream they take authority over.
 //!
 //! A *latched* request holds no authority beyond its instant. From the source in control it ends the stream: what it
 //! requested stays in effect.

@@ -1,12 +1,12 @@
 //! The controller: one tick, read from top to bottom.
 
+mod requests;
+
 use std::sync::Arc;
 
 use dynamics::{Kinematics, ReferenceDynamics, Tree};
 use gait::{NominalTable, Start, Walk, WalkError};
-use interface::{
-    AddedAngles, Fault, Faults, Intent, Measurement, Mode, Reason, Reply, Report, Request, Setpoint, Verdict,
-};
+use interface::{AddedAngles, Fault, Faults, Intent, Measurement, Mode, Report, Setpoint};
 use model::{ComState, Mechanism, Motion};
 use nalgebra::Vector2;
 use pattern::{FeasibilityCheck, PatternGenerator, Stance};
@@ -14,15 +14,14 @@ use stabilizer::{
     BalanceState, ContactEstimate, DcmFeedback, LandingCompliance, SupportFrameMeasurement, ZmpEstimator, estimate_com,
 };
 
-use crate::admission::Admission;
-use crate::admission_job::{AdmissionJob, Decision};
+use crate::admission_control::AdmissionControl;
+use crate::admission_job::AdmissionJob;
 use crate::command_arbiter::CommandArbiter;
 use crate::joint_limiter::JointLimiter;
 use crate::measurement_validator::MeasurementValidator;
 use crate::operating_state::OperatingState;
 use crate::parameters::Parameters;
-use crate::pattern::{Pattern, goal_of};
-use crate::recovery::Recovery;
+use crate::pattern::Pattern;
 use crate::report::{Tick, added_angles, to_physical};
 
 /// With the measured ZMP this far inside a sole (m), the whole sole is on the ground.
@@ -39,7 +38,7 @@ pub struct Controller {
     tree: Tree,
     state: OperatingState,
     arbiter: CommandArbiter,
-    admission: Admission,
+    admission: AdmissionControl,
     pattern: Pattern,
     /// The stand to return to after a fall.
     rest: Box<PatternGenerator>,
@@ -104,7 +103,7 @@ impl Controller {
         Self {
             state: OperatingState::new(intent),
             arbiter: CommandArbiter::new(parameters.arbiter),
-            admission: Admission::new(AdmissionJob::new(check, &rest)),
+            admission: AdmissionControl::new(AdmissionJob::new(check, &rest)),
             validator: MeasurementValidator::new(mechanism, parameters.validator),
             kinematics: Kinematics::default(),
             zmp_estimator: ZmpEstimator::new(mechanism, parameters.stabilizer.zmp),
@@ -167,112 +166,6 @@ impl Controller {
         self.state.mode(self.pattern.gait().phase())
     }
 
-    /// Whether a request can be submitted: the one before has been replied to.
-    pub fn accepts_request(&self) -> bool {
-        self.admission.is_idle()
-    }
-
-    /// Submits a request, between two ticks, while [`accepts_request`](Self::accepts_request). The tick in which it is
-    /// decided returns the reply.
-    pub fn submit(&mut self, request: &Request) {
-        let changes_walk = !request.is_empty() && !request.is_stop();
-        let steps = request.intent.is_none_or(Intent::steps);
-        if let Err(authority) = self.arbiter.admit(request) {
-            let refused = self.refused(Reason::Outranked);
-            self.admission.reply(Reply { authority: Some(authority), ..refused });
-        } else if request.intent == Some(Intent::Reset) {
-            let can_reset = self.state.latched().is_none() || self.can_reset();
-            if can_reset {
-                self.reset();
-            }
-            self.admission.reply(if can_reset { self.unchanged() } else { self.refused(Reason::FaultPersists) });
-        } else if self.state.has_fallen() {
-            self.admission.reply(self.refused(Reason::Fallen));
-        } else if self.state.latched().is_some() && changes_walk {
-            self.admission.reply(self.refused(Reason::Faulted));
-        } else if !self.pattern.gait().can_restart() && steps && !request.is_empty() {
-            self.admission.reply(self.refused(Reason::CannotRestart));
-        } else if request.is_empty() || self.state.latched().is_some() {
-            // A faulted robot stands already, or is about to.
-            self.admission.reply(self.unchanged());
-        } else {
-            self.evaluate(request);
-        }
-    }
-
-    /// The admission job that is to be evaluated, if there is one. Until it is [completed](Self::complete) no other request
-    /// can be submitted.
-    pub fn take_job(&mut self) -> Option<Box<AdmissionJob>> {
-        self.admission.take_job()
-    }
-
-    /// Takes an evaluated job back, between two ticks. The controller adopts its plan if that is still one for the present;
-    /// else the job has to be evaluated again.
-    pub fn complete(&mut self, job: Box<AdmissionJob>) {
-        let Pattern::Planned(generator) = &mut self.pattern else { return self.admission.finish(job) };
-        let refusal = match self.state.latched() {
-            Some(Fault::Fallen) => Some(Reason::Fallen),
-            Some(_) if !job.intent().is_some_and(Intent::is_stop) => Some(Reason::Faulted),
-            _ => None,
-        };
-        if let Some(reason) = refusal {
-            generator.cancel_speed_override();
-            self.admission.reply(self.refused(reason));
-        } else {
-            let Some((plan, decision)) = job.decided_for(generator) else {
-                return self.admission.reopen(job, generator);
-            };
-            if decision.verdict == Verdict::Refused {
-                generator.cancel_speed_override();
-            } else {
-                generator.adopt(plan);
-                self.state.set_intent(job.intent().unwrap_or(self.state.intent()));
-            }
-            self.admission.reply(decision.reply(self.state.intent()));
-        }
-        self.admission.finish(job);
-    }
-
-    /// Decides on a request that may change the walk: at once, or by a job where the walk is planned.
-    fn evaluate(&mut self, request: &Request) {
-        match &mut self.pattern {
-            Pattern::Planned(generator) => {
-                generator.override_speed(&request.gait);
-                self.admission.open(generator, request);
-            }
-            Pattern::Uncompensated(gait) => {
-                let decision = Decision::at_once(&gait.admit(&request.gait));
-                if decision.verdict != Verdict::Refused
-                    && let Some(intent) = request.intent
-                {
-                    self.state.set_intent(intent);
-                    if let Some(goal) = goal_of(intent) {
-                        gait.set_goal(goal);
-                    }
-                }
-                self.admission.reply(decision.reply(self.state.intent()));
-            }
-        }
-    }
-
-    /// Whether the cause of the latched fault is gone.
-    fn can_reset(&self) -> bool {
-        let is_well = self.validator.is_upright() && !self.validator.is_stale();
-        is_well && (!self.state.has_fallen() || matches!(self.pattern, Pattern::Planned(_)))
-    }
-
-    /// Clears the latched fault. After a fall the joints return to a stand first.
-    fn reset(&mut self) {
-        match &mut self.pattern {
-            Pattern::Planned(generator) if self.state.has_fallen() => {
-                generator.clone_from(&self.rest);
-                let stand = generator.physical_motion().angles;
-                self.state.recover(Recovery::begin(&self.limiter.hold().angles, &stand));
-            }
-            _ => self.state.clear_fault(),
-        }
-    }
-
     /// Stops by its own decision, whatever request is under evaluation.
     fn stop(&mut self, stance: Stance) {
         self.state.set_intent(if stance == Stance::Parallel { Intent::Stop } else { Intent::Hold });
@@ -286,7 +179,8 @@ impl Controller {
         }
     }
 
-    /// Absorbs a measurement and returns the measured centre of mass; `None` without a valid measurement, and in the air.
+    /// Absorbs a measurement and returns the measured centre of mass; `None` without a valid measurement, and in the
+    /// air.
     fn estimate(&mut self, measurement: Option<&Measurement>, dt: f64, faults: &mut Faults) -> Option<ComState> {
         let valid = self.validator.update(measurement, dt, faults);
         if self.validator.is_stale() && self.state.latched().is_none() {
@@ -412,25 +306,13 @@ impl Controller {
         })
     }
 
-    /// What the plan adds to the plain sum of the modifications. The walk is known at the newest knot, a little ahead of
-    /// now: just before a support change only in the frame of the other foot.
+    /// What the plan adds to the plain sum of the modifications. The walk is known at the newest knot, a little ahead
+    /// of now: just before a support change only in the frame of the other foot.
     fn added(&self, commanded: &Motion) -> Option<AddedAngles> {
         let gait = self.pattern.gait();
         let (walk, now) = (gait.walk(), gait.half_step());
         let is_known = self.follows_walk() && walk.half_step().index == now.index;
         let planned = commanded.angles - self.feedback.offsets().angles - self.landing.offsets().angles;
         is_known.then(|| added_angles(&self.mechanism, &walk.motion_at(now.progress).angles, &planned))
-    }
-
-    /// The reply to a request that changes nothing.
-    fn unchanged(&self) -> Reply {
-        let gait = self.pattern.gait();
-        Decision::unchanged(gait.command(), gait.half_step().index).reply(self.state.intent())
-    }
-
-    /// The reply to a refused request.
-    fn refused(&self, reason: Reason) -> Reply {
-        let gait = self.pattern.gait();
-        Reply::refused(reason, gait.half_step().index, gait.command(), Some(self.state.intent()))
     }
 }

@@ -1,15 +1,17 @@
-//! The driver: the order in which a controller is driven in each control period, written once for loops, replay and tests.
+//! The driver: the order in which a controller is driven in each control period, written once for loops, replay and
+//! tests.
 //!
 //! A request that changes a planned walk becomes an [`AdmissionJob`](crate::AdmissionJob), which takes milliseconds. An
-//! [`AdmissionWorker`] evaluates it: at once within the period ([`InlineWorker`]), on another thread, or when a recording
-//! says. The order of jobs and requests within a period decides the bits of what follows, so a recording keeps the
-//! [`AdmissionTiming`].
+//! [`AdmissionWorker`] evaluates it: at once within the period ([`InlineWorker`]), on another thread, or when a
+//! recording says. The order of jobs and requests within a period decides the bits of what follows, so a recording
+//! keeps the [`AdmissionTiming`].
 
 use interface::{Measurement, Request};
 
 use crate::{Controller, Tick};
 
-/// When, in a control period, a completed admission job came back to the controller. The numbers are those of recordings.
+/// When, in a control period, a completed admission job came back to the controller. The numbers are those of
+/// recordings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u32)]
 pub enum AdmissionTiming {
@@ -35,8 +37,8 @@ impl AdmissionTiming {
 
 /// Evaluates admission jobs.
 pub trait AdmissionWorker {
-    /// Takes the controller's job, if it has one, and completes those that are evaluated; returns whether one came back to
-    /// the controller. Called once or twice per period, at the `point` that a completed job will be recorded with.
+    /// Takes the controller's job, if it has one, and completes those that are evaluated; returns whether one came back
+    /// to the controller. Called once or twice per period, at the `point` that a completed job will be recorded with.
     fn serve(&mut self, controller: &mut Controller, point: AdmissionTiming) -> bool;
 }
 

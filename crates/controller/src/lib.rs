@@ -1,11 +1,11 @@
 //! The controller: what to do in each control period.
 //!
-//! [`Controller::tick`] takes the period's length and the newest measurement, and returns a setpoint and a report. It never
-//! allocates, blocks, logs or fails: bad input becomes a [`Fault`](interface::Fault) in the report, and the same inputs give
-//! the same bits. There is no clock here, and no I/O after [`Controller::new`]. [`Driver::step`] is a whole control period
-//! with requests: use it rather than the controller's parts.
+//! [`Controller::tick`] takes the period's length and the newest measurement, and returns a setpoint and a report. It
+//! never allocates, blocks, logs or fails: bad input becomes a [`Fault`](interface::Fault) in the report, and the same
+//! inputs give the same bits. There is no clock here, and no I/O after [`Controller::new`]. [`Driver::step`] is a whole
+//! control period with requests: use it rather than the controller's parts.
 
-mod admission;
+mod admission_control;
 mod admission_job;
 mod command_arbiter;
 mod controller;

@@ -15,11 +15,12 @@ pub struct ValidatorParameters {
     pub fall_confirmation: f64,
     /// Tolerance of the measured joint angles beyond their range (rad): stops give way, encoders are mounted by hand.
     pub angle_tolerance: f64,
-    /// Largest measured joint rate, as a multiple of the joint's rate limit.
+    /// Largest measured joint rate, as a multiple of the joint's rate limit (-).
     pub rate_factor_max: f64,
     /// Largest measured angular rate of the trunk about an axis (rad/s).
     pub trunk_rate_max: f64,
-    /// Largest measured force on a foot, as a multiple of the robot's weight; likewise for moments, at an arm of 1 m.
+    /// Largest measured force on a foot, as a multiple of the robot's weight (-); likewise for moments, at an arm of 1
+    /// m.
     pub load_factor_max: f64,
     /// Largest angle between the measured vertical and the one that the gyro predicts from the last sample (rad).
     pub orientation_jump_max: f64,
@@ -81,8 +82,8 @@ impl MeasurementValidator {
         }
     }
 
-    /// Absorbs what arrived within the last `dt` seconds; a valid measurement is returned with the vertical (unit vector)
-    /// in its trunk's axes.
+    /// Absorbs what arrived within the last `dt` seconds; a valid measurement is returned with the vertical (unit
+    /// vector) in its trunk's axes.
     pub fn update<'m>(
         &mut self,
         measurement: Option<&'m Measurement>,
@@ -139,8 +140,8 @@ impl MeasurementValidator {
         self.age > self.parameters.timeout
     }
 
-    /// Whether the angular rate jumps, or the vertical is not where the last one turns to at the mean rate of both samples
-    /// (`u̇ = u × ω` in trunk axes). After a gap beyond the gyro's horizon nothing can contradict.
+    /// Whether the angular rate jumps, or the vertical is not where the last one turns to at the mean rate of both
+    /// samples (`u̇ = u × ω` in trunk axes). After a gap beyond the gyro's horizon nothing can contradict.
     fn contradicts_gyro(&self, up: &Vector3<f64>, rate: &Vector3<f64>) -> bool {
         let ValidatorParameters { orientation_jump_max, trunk_rate_jump_max, gyro_horizon, .. } = self.parameters;
         self.trunk.filter(|_| self.age < gyro_horizon).is_some_and(|[last_up, last_rate]| {

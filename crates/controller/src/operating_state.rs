@@ -77,8 +77,8 @@ impl OperatingState {
         self.latched = Some(Fault::Fallen);
     }
 
-    /// Latches another fault than a fall, and returns whether a walk has to be stopped because of it. After a fall nothing
-    /// changes.
+    /// Latches another fault than a fall, and returns whether a walk has to be stopped because of it. After a fall
+    /// nothing changes.
     pub(crate) fn latch(&mut self, fault: Fault) -> bool {
         if self.has_fallen() {
             return false;

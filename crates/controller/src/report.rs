@@ -17,8 +17,8 @@ pub struct Tick {
     pub reply: Option<Reply>,
 }
 
-/// Within the controller the support foot is always the right one. Mirrors a report back if it is the left one: points and
-/// velocities change the sign of y, rotations that of x.
+/// Within the controller the support foot is always the right one. Mirrors a report back if it is the left one: points
+/// and velocities change the sign of y, rotations that of x.
 pub(crate) fn to_physical(report: Report) -> Report {
     if report.half_step.support == Side::Right {
         return report;

@@ -9,11 +9,11 @@
 //!   it.
 //! * **canonical**: expressed as if the robot stood on its right foot. **Physical**: joints 3–8 are the right leg's.
 
-mod admission;
 mod error;
 mod hermite;
 mod parameters;
 mod ramp;
+mod range_check;
 mod robot;
 mod speed;
 mod step_extension;
@@ -22,11 +22,11 @@ mod table_csv;
 mod turn;
 mod walk;
 
-pub use admission::{Admission, Quantity};
 pub use error::WalkError;
 pub use hermite::interpolate;
 pub use parameters::{GaitParameters, Limits};
 pub use ramp::{Ramp, RampKind, RampState};
+pub use range_check::{Quantity, RangeCheck};
 pub use robot::Robot;
 pub use speed::{Speed, at_speed};
 pub use step_extension::StepExtension;

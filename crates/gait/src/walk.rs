@@ -5,7 +5,7 @@ use std::sync::Arc;
 use model::{JointVector, Mechanism, Mirror, Motion, Side};
 
 use crate::{
-    Admission, GaitParameters, Limits, NominalTable, Quantity, Speed, StepExtension, Turn, WalkError, at_speed,
+    GaitParameters, Limits, NominalTable, Quantity, RangeCheck, Speed, StepExtension, Turn, WalkError, at_speed,
 };
 use interface::{Command, GaitChange, HalfStep};
 
@@ -72,16 +72,16 @@ impl Walk {
     }
 
     /// Takes what is granted of a request and says what that is and when it takes effect, see [`Self::force`].
-    pub fn admit(&mut self, change: &GaitChange) -> Admission {
+    pub fn admit(&mut self, change: &GaitChange) -> RangeCheck {
         let mut admission = self.grant(change, self.command());
         admission.effect_half_step = self.force(&admission.granted);
         admission
     }
 
     /// What would be granted of a request if `in_force` were.
-    pub fn grant(&self, change: &GaitChange, in_force: Command) -> Admission {
+    pub fn grant(&self, change: &GaitChange, in_force: Command) -> RangeCheck {
         let (verdict, objection, granted) = self.limits.admit(change, in_force);
-        Admission { verdict, objection, granted, effect_half_step: self.half_step.index }
+        RangeCheck { verdict, objection, granted, effect_half_step: self.half_step.index }
     }
 
     /// Puts `command` into force, and returns the half-step from which on all of it is in effect: speed at once, turn

@@ -1,4 +1,5 @@
-//! Enums that travel as a `u32`: an invalid enum in shared memory would be undefined behaviour, an unknown number is not.
+//! Enums that travel as a `u32`: an invalid enum in shared memory would be undefined behaviour, an unknown number is
+//! not.
 
 /// An enum with a number for each variant.
 pub trait Code: Sized + Copy {

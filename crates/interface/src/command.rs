@@ -5,7 +5,7 @@
 pub struct Command {
     /// `α`: change of heading per full step (rad), positive to the left.
     pub turn: f64,
-    /// `c`: speed as a multiple of the nominal half-step's.
+    /// `c`: speed as a multiple of the nominal half-step's (-).
     pub speed: f64,
     /// `β`: step extension (rad), positive for longer steps.
     pub extension: f64,
@@ -16,7 +16,7 @@ pub struct Command {
 pub struct GaitChange {
     /// `α`: change of heading per full step (rad), positive to the left.
     pub turn: Option<f64>,
-    /// `c`: speed as a multiple of the nominal half-step's.
+    /// `c`: speed as a multiple of the nominal half-step's (-).
     pub speed: Option<f64>,
     /// `β`: step extension (rad), positive for longer steps.
     pub extension: Option<f64>,

@@ -2,16 +2,16 @@
 //!
 //! | value | from → to | what it is |
 //! |---|---|---|
-//! | [`Setpoint`] | controller → plant | joint angles, rates and feed-forward torques to reach at the end of a period |
+//! | [`Setpoint`] | controller → plant | joint angles, rates, feed-forward torques for the end of a period |
 //! | [`Measurement`] | plant → controller | one sample of all sensors; nothing in it is trusted |
-//! | [`Request`] | operator → controller | a change of gait parameters or [`Intent`], with its [`Source`] and [`Lifetime`] |
-//! | [`Reply`] | controller → operator | the [`Verdict`] on a request, what was granted, and the [`Reason`] if it was less |
+//! | [`Request`] | operator → controller | new gait parameters or [`Intent`], from a [`Source`], for its [`Lifetime`] |
+//! | [`Reply`] | controller → operator | the [`Verdict`] on a request, what was granted, the [`Reason`] if less |
 //! | [`Report`] | controller → anyone | the state of the controller after a period: [`Mode`], ZMP, [`Faults`] |
 //!
-//! These are values only: how they travel is the crate `wire`'s affair. All quantities are SI (m, rad, N, s). Joints are
-//! physical: joints 3 to 8 belong to the right leg, whichever foot supports the robot. Points and vectors are expressed in
-//! the support foot's sole frame: origin under the ankle, x forward along the foot, y to the left, z up. Nothing that
-//! leaves the controller is mirrored.
+//! These are values only: how they travel is the crate `wire`'s affair. All quantities are SI (m, rad, N, s). Joints
+//! are physical: joints 3 to 8 belong to the right leg, whichever foot supports the robot. Points and vectors are
+//! expressed in the support foot's sole frame: origin under the ankle, x forward along the foot, y to the left, z up.
+//! Nothing that leaves the controller is mirrored.
 
 pub mod code;
 mod command;

@@ -2,8 +2,8 @@
 
 use crate::code::codes;
 
-/// Shortest command timeout that a controller may have by default (s): streams without a timeout of their own send several
-/// heartbeats within it.
+/// Shortest command timeout that a controller may have by default (s): streams without a timeout of their own send
+/// several heartbeats within it.
 pub const COMMAND_TIMEOUT_MIN: f64 = 0.1;
 
 codes! {

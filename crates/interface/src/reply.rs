@@ -26,9 +26,9 @@ pub struct Reply {
     pub predicted_margin: Option<f64>,
 }
 
-/// A limit, and by what it would have been exceeded. Both numbers have the unit of the [`Reason`]: rad for turn, extension
-/// and joint range, rad/s for joint rate, N·m for torque, V for voltage, m for margin, clearance and reach; speed is a
-/// factor.
+/// A limit, and by what it would have been exceeded. Both numbers have the unit of the [`Reason`]: rad for turn,
+/// extension and joint range, rad/s for joint rate, N·m for torque, V for voltage, m for margin, clearance and reach;
+/// speed is a factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ActiveLimit {
     /// The physical joint whose limit it is, if it is a joint's.

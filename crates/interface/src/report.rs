@@ -5,15 +5,15 @@ use nalgebra::Vector2;
 
 use crate::{Faults, HalfStep, Mode};
 
-/// The state of the controller after a control period. Points, vectors and rotations are expressed in the support foot's
-/// sole frame.
+/// The state of the controller after a control period. Points, vectors and rotations are expressed in the support
+/// foot's sole frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
     /// What the controller is doing.
     pub mode: Mode,
     /// The present half-step: its index, its support foot, its progress.
     pub half_step: HalfStep,
-    /// `c` at this instant; a change of speed passes over a ramp.
+    /// `c` at this instant (-); a change of speed passes over a ramp.
     pub speed: f64,
     /// `α` in force (rad).
     pub turn: f64,

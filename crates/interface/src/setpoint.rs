@@ -2,8 +2,8 @@
 
 use model::JointVector;
 
-/// What the drives are to reach at the end of a control period, by physical joint. Values of the unpowered joints 1 and 2
-/// have no meaning.
+/// What the drives are to reach at the end of a control period, by physical joint. Values of the unpowered joints 1 and
+/// 2 have no meaning.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Setpoint {
     /// Joint angles (rad).

@@ -55,7 +55,7 @@ fn assert_refused(mistakes: &[Mistake]) {
 #[test]
 fn sixteen_mistakes_in_a_mechanism_file_are_reported_in_sixteen_lines() {
     assert_refused(&[
-        mistake("sole", "width_m = 0.08", "width_mm = 80", "1: sole.width_mm = 80: unknown key, write `width_m`"),
+        mistake("sole", "width_m = 0.08", "width_mm = 80", "1: sole.width_mm = 80: unknown key; write `width_m`"),
         mistake("motor.leg", "0.608", "0.0", "18: motor.leg.resistance_ohm = 0.0: must be greater than 0"),
         mistake(
             "motor.arm",
@@ -79,7 +79,7 @@ fn sixteen_mistakes_in_a_mechanism_file_are_reported_in_sixteen_lines() {
             "joint.right_knee",
             "range_deg = [-120, 5]",
             "range_rad = [-2.1, 0.1]",
-            "1: joint.right_knee.range_rad = [-2.1, 0.1]: unknown key, write `range_deg`",
+            "1: joint.right_knee.range_rad = [-2.1, 0.1]: unknown key; write `range_deg`",
         ),
         mistake(
             "joint.right_hip_pitch",
@@ -129,7 +129,7 @@ fn sixteen_mistakes_in_a_mechanism_file_are_reported_in_sixteen_lines() {
             "joint.waist_roll",
             "parent = \"waist_pitch\"",
             "parnet = \"waist_pitch\"",
-            "1: joint.waist_roll.parnet = \"waist_pitch\": unknown key, write `parent`",
+            "1: joint.waist_roll.parnet = \"waist_pitch\": unknown key; write `parent`",
         ),
         mistake(
             "joint.left_shoulder",
@@ -142,7 +142,7 @@ fn sixteen_mistakes_in_a_mechanism_file_are_reported_in_sixteen_lines() {
             "joint.left_elbow",
             "number = 20",
             "number = 20\ncolour = \"red\"",
-            "1: joint.left_elbow.colour = \"red\": unknown key, expected are number, parent, axis, origin_m, mass_kg, \
+            "1: joint.left_elbow.colour = \"red\": unknown key; expected one of number, parent, axis, origin_m, mass_kg, \
              com_m, inertia_kg_m2, range_deg, rate_max_deg_per_s, motor",
         ),
     ]);

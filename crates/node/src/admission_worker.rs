@@ -1,5 +1,5 @@
-//! Evaluates whether requests can be granted: in a thread beside the loop in real time, so that no tick waits for it;
-//! in the loop itself in lockstep, so that a run depends on nothing but its inputs.
+//! The worker that evaluates admission jobs: in the loop itself in lockstep, so that a run depends on nothing but its
+//! inputs; on a thread beside the loop in real time, so that no tick waits for it.
 
 use std::thread::JoinHandle;
 

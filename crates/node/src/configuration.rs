@@ -109,7 +109,8 @@ impl ConfigFiles {
             check_nominal(&mechanism, &nominal, &nominal_file, errors);
         } else {
             errors.0.push(format!(
-                "{nominal_file}: made for the mechanism {:#018x}, but {mechanism_file} is {:#018x}; make one for it with \
+                "{nominal_file}: made for the mechanism {:#018x}, but {mechanism_file} is {:#018x}; make one for it \
+                 with \
                  `halfstep synthesize --mechanism {mechanism_file} --out {nominal_file}`",
                 nominal.mechanism,
                 mechanism.fingerprint,

@@ -30,7 +30,8 @@ pub struct ControllerRun {
 /// The request that the loop makes by itself after too many missed deadlines in a row.
 const HOLD: Request = Request { intent: Some(Intent::Hold), ..Request::new(Source::Program) };
 
-/// Runs until the cycles end. After `hold_after_misses` deadlines missed in a row the robot stops in stride; 0 is never.
+/// Runs until the cycles end. After `hold_after_misses` deadlines missed in a row the robot stops in stride; 0 is
+/// never.
 ///
 /// # Errors
 /// In lockstep no measurement has arrived for too long.

@@ -79,8 +79,8 @@ pub struct Cycle<M> {
 /// In lockstep the other side has stopped sending messages.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "no message from the {peer} for {} s (waiting for tick {expected}, {}). In lockstep, start both processes with the same \
-     --for",
+    "no message from the {peer} for {} s (waiting for tick {expected}, {}). In lockstep, start both processes with \
+     the same --for",
     SILENCE_MAX.as_secs(),
     last_received.map_or("none received".to_owned(), |tick| format!("last received {tick}"))
 )]

@@ -1,8 +1,8 @@
 //! Replays a run: a controller made from the recorded configuration receives the recorded inputs again.
 //!
 //! What a controller does depends on nothing but robot, parameters, and its inputs between and in the ticks: the length
-//! of each period, measurements, requests, and when an evaluated inquiry was returned. All of that is in a recording,
-//! so that runs in real time can be replayed as well as runs in lockstep.
+//! of each period, measurements, requests, and when an evaluated admission job was returned. All of that is in a
+//! recording, so that runs in real time can be replayed as well as runs in lockstep.
 
 use std::collections::HashMap;
 use std::fmt;

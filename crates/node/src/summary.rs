@@ -48,7 +48,8 @@ impl fmt::Display for ControllerSummary {
         let mode = if mode.is_empty() { "never began" } else { mode };
         write!(
             out,
-            "{ticks} ticks, {half_steps} half-steps, {mode}; {requests}; {deadline_misses} deadlines missed, {log_gaps} \
+            "{ticks} ticks, {half_steps} half-steps, {mode}; {requests}; {deadline_misses} deadlines missed, \
+             {log_gaps} \
              reports dropped"
         )?;
         timing.map_or(Ok(()), |timing| write!(out, "; {timing}"))

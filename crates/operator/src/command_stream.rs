@@ -1,9 +1,9 @@
 //! A stream of commands: sends requests when they are due, a heartbeat in between, and a release when it is closed.
 //!
-//! What a stream commands stays in effect only while its source is active (`controller::Sources`). A heartbeat is an
-//! empty request: it keeps the source active and changes nothing, whatever others were granted meanwhile. Nor does it
-//! start a walk: after a silence in which the robot has stopped, only a request to walk does. A stream whose process is
-//! killed falls silent; one that is closed leaves its last commands in effect.
+//! What a stream commands stays in effect only while its source is active (`controller::CommandArbiter`). A heartbeat
+//! is an empty request: it keeps the source active and changes nothing, whatever others were granted meanwhile. Nor
+//! does it start a walk: after a silence in which the robot has stopped, only a request to walk does. A stream whose
+//! process is killed falls silent; one that is closed leaves its last commands in effect.
 
 use std::time::Duration;
 

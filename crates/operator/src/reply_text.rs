@@ -150,7 +150,8 @@ fn rounded(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use interface::{Command, GaitChange, Source};
+    use expect_test::expect_file;
+    use interface::{Command, GaitChange, Intent, Source};
     use model::Joint;
 
     use super::*;
@@ -172,8 +173,8 @@ mod tests {
         let limited = Reply { active_limit: Some(rate), predicted_margin: Some(0.0214), ..limited };
         assert_eq!(
             reply_text(&faster(), &limited),
-            "limited to speed 1, from half-step 12: a joint would exceed its rate limit (joint 5 (right_knee) 14.5 °/s, \
-             limit 12 °/s); predicted ZMP margin 21.4 mm"
+            "limited to speed 1, from half-step 12: a joint would exceed its rate limit (joint 5 (right_knee) \
+             14.5 °/s, limit 12 °/s); predicted ZMP margin 21.4 mm"
         );
         let json = serde_json::to_value(ReplyJson::from(&limited)).unwrap();
         let bound = serde_json::json!({"joint": 5, "value": 14.5, "limit": 12.0, "unit": "°/s"});
@@ -196,6 +197,43 @@ mod tests {
         );
         let json = serde_json::to_value(ReplyJson::from(&refused)).unwrap();
         assert_eq!(json["in_command"], serde_json::json!({"source": "teleop", "remaining_s": 0.4201}));
+    }
+
+    /// Every reason with the numbers that replies of the controller have with it.
+    #[test]
+    fn every_reply_is_the_pinned_text() {
+        let request = Request {
+            gait: GaitChange { turn: Some(0.5), speed: Some(1.5), extension: Some(0.2) },
+            intent: Some(Intent::Walk),
+            ..Request::new(Source::Script)
+        };
+        let mut text = String::new();
+        for &reason in Reason::ALL {
+            let active_limit = match reason {
+                Reason::TurnLimit
+                | Reason::SpeedLimit
+                | Reason::ExtensionLimit
+                | Reason::Margin
+                | Reason::SoleClearance
+                | Reason::LegReach => Some(ActiveLimit { joint: None, value: 0.5, limit: 0.4 }),
+                Reason::JointRange | Reason::JointRate | Reason::Torque | Reason::Voltage => {
+                    Some(ActiveLimit { joint: Some(Joint::LeftKnee), value: 0.5, limit: 0.4 })
+                }
+                _ => None,
+            };
+            let authority =
+                (reason == Reason::Outranked).then_some(ControlAuthority { source: Source::Teleop, remaining: 0.42 });
+            let verdict = match (reason, active_limit) {
+                (Reason::None, _) => Verdict::Accepted,
+                (_, Some(_)) => Verdict::Limited,
+                _ => Verdict::Refused,
+            };
+            let predicted_margin = (verdict != Verdict::Refused).then_some(0.0214);
+            let reply = Reply { active_limit, authority, predicted_margin, ..reply(verdict, reason) };
+            text += &format!("{reason:?}\n  {}\n", reply_text(&request, &reply));
+            text += &format!("  {}\n", serde_json::to_string(&ReplyJson::from(&reply)).unwrap());
+        }
+        expect_file!["../tests/replies.txt"].assert_eq(&text);
     }
 
     #[test]

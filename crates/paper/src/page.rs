@@ -29,16 +29,17 @@ a { color: inherit }
 </head>
 <body>
 <h1>The paper, figure by figure</h1>
-<p>One mechanism, one nominal, the paper's own degrees. A figure is <em>in</em> when every ZMP point of the steady half-steps
-lies inside the bearing sole. Lengths are relative to O, under the ankle of the bearing foot; x along the foot, y to the
-middle. Leans are of joints 3 / 4 (ankle) or 15 / 16 (trunk).</p>
+<p>One mechanism, one nominal, the paper's own degrees. A figure is <em>in</em> when every ZMP point of the steady
+half-steps lies inside the support foot's sole. Lengths are relative to O, under the ankle of the support foot; x along
+the foot, y to the middle. Leans are of joints 3 / 4 (ankle) or 15 / 16 (trunk).</p>
 ";
 
 /// Writes the page; `pictures` are the figures' SVG texts.
 pub fn page(figures: &[Figure], pictures: &[String]) -> String {
     let mut html = HEAD.to_owned();
-    html += "<table><tr><th>Fig.</th><th class=\"word\">gait</th><th class=\"word\">lean</th><th>x [cm]</th><th>y [cm]</th>\
-             <th>margin [mm]</th><th class=\"word\">verdict</th><th class=\"word\">paper</th><th class=\"word\">agree?</th>\
+    html += "<table><tr><th>Fig.</th><th class=\"word\">gait</th><th class=\"word\">lean</th>\
+             <th>x [cm]</th><th>y [cm]</th><th>margin [mm]</th>\
+             <th class=\"word\">verdict</th><th class=\"word\">paper</th><th class=\"word\">agree?</th>\
              <th class=\"word\">best lean</th><th>its margin [mm]</th></tr>\n";
     for figure in figures {
         row(&mut html, figure);
@@ -62,7 +63,8 @@ fn row(html: &mut String, figure: &Figure) {
         html,
         "<tr{class}><td><a href=\"#figure-{number}\">{number}</a></td><td class=\"word\">{title}</td>\
          <td class=\"word\">{lean}</td><td>{x}</td><td>{y}</td><td>{margin}</td><td class=\"word\">{verdict}</td>\
-         <td class=\"word\">{paper}</td><td class=\"word\">{agreement}</td><td class=\"word\">{best}</td><td>{its_margin}</td></tr>",
+         <td class=\"word\">{paper}</td><td class=\"word\">{agreement}</td>\
+         <td class=\"word\">{best}</td><td>{its_margin}</td></tr>",
         number = scenario.figure,
         title = escape(&scenario.title),
         lean = scenario.lean.map_or(String::new(), |lean| lean_text(&lean, 1)),

@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 use crate::ground_slope_estimator::GroundSlopeEstimator;
 use crate::knot::Knot;
 use crate::playback::Playback;
-use crate::proportions::Proportions;
+use crate::proportions::PatternProportions;
 use crate::swing_clearance::SwingClearance;
 
 /// What is played and sensed at present.
@@ -25,7 +25,7 @@ pub(crate) struct Execution {
 
 impl Execution {
     /// At the second of four knots, upright on level ground.
-    pub(crate) fn new(proportions: &Proportions, knots: [Knot; 4]) -> Self {
+    pub(crate) fn new(proportions: &PatternProportions, knots: [Knot; 4]) -> Self {
         Self {
             playback: Playback::new(knots),
             slope: GroundSlopeEstimator::new(proportions),

@@ -4,9 +4,10 @@ use dynamics::ReferenceDynamics;
 use model::{Joint, JointVector, Mechanism, Motion, Side};
 use nalgebra::{Point3, Vector2};
 
+use crate::gait::Gait;
 use crate::knot::KNOT;
 use crate::pattern_generator::PatternGenerator;
-use crate::proportions::Proportions;
+use crate::proportions::PatternProportions;
 
 /// The result of a check.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +25,7 @@ pub struct LimitViolation {
     pub limit: Limit,
     /// The value that the motion needs, in the unit of the limit.
     pub value: f64,
-    /// The bound on this value.
+    /// The bound on this value, in the unit of the limit.
     pub bound: f64,
 }
 
@@ -64,7 +65,7 @@ const MID_SWING: std::ops::Range<f64> = 0.3..0.7;
 pub struct FeasibilityCheck {
     parameters: FeasibilityParameters,
     mechanism: Mechanism,
-    proportions: Proportions,
+    proportions: PatternProportions,
     dynamics: ReferenceDynamics,
 }
 
@@ -73,7 +74,7 @@ impl FeasibilityCheck {
     ///
     /// * `dynamics` – of that robot; its state does not matter
     pub fn new(mechanism: &Mechanism, dynamics: ReferenceDynamics, parameters: FeasibilityParameters) -> Self {
-        Self { parameters, mechanism: mechanism.clone(), proportions: Proportions::of(mechanism), dynamics }
+        Self { parameters, mechanism: mechanism.clone(), proportions: PatternProportions::of(mechanism), dynamics }
     }
 
     /// Advances a generator by so many knots and checks each.

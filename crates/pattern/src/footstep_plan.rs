@@ -1,7 +1,7 @@
 //! The footstep plan: which half-steps come and where they put the feet.
 
 use dynamics::Kinematics;
-use gait::{Admission, Walk};
+use gait::{RangeCheck, Walk};
 use interface::{Command, GaitChange, Verdict};
 use model::{Joint, Mechanism, Side};
 use nalgebra::{Vector2, Vector3};
@@ -76,7 +76,7 @@ impl FootstepPlan {
     }
 
     /// Puts in force what the limits of the gait grant of a request. See [`Walk::admit`].
-    pub(crate) fn admit(&mut self, request: &GaitChange) -> Admission {
+    pub(crate) fn admit(&mut self, request: &GaitChange) -> RangeCheck {
         let mut admission = self.walk.grant(request, self.command);
         if admission.verdict != Verdict::Refused {
             self.command = admission.granted;

@@ -4,7 +4,7 @@
 use nalgebra::Vector2;
 use signal::{CriticallyDamped, LowPass};
 
-use crate::proportions::Proportions;
+use crate::proportions::PatternProportions;
 
 /// The lean of the vertical over the floor, in the walk frame: x and y of the unit vector. The planned lean is a
 /// critically damped lag of the sensed one: drives and soles yield within a step and noise is white, but a slope stays
@@ -22,7 +22,7 @@ const LEAN_MAX: f64 = 0.105;
 
 impl GroundSlopeEstimator {
     /// Level ground.
-    pub(crate) fn new(proportions: &Proportions) -> Self {
+    pub(crate) fn new(proportions: &PatternProportions) -> Self {
         Self {
             sensed: LowPass::new(proportions.sensed_vertical_time_constant, Vector2::zeros()),
             planned: CriticallyDamped::default(),
@@ -57,21 +57,14 @@ impl GroundSlopeEstimator {
 
 #[cfg(test)]
 mod tests {
-    use config::Config;
-    use model::Mechanism;
-
     use super::*;
-
-    fn proportions() -> Proportions {
-        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism.toml");
-        Proportions::of(&Mechanism::load(file).unwrap())
-    }
 
     /// The oracle: a critically damped lag answers a step with 1 − (1 + t/τ)·e^(−t/τ).
     #[test]
     fn slope_is_sensed_at_once_and_planned_after_a_few_half_steps() {
-        let (step, time_constant) = (Vector2::new(0.03, -0.02), proportions().slope_time_constant);
-        let mut slope = GroundSlopeEstimator::new(&proportions());
+        let step = Vector2::new(0.03, -0.02);
+        let time_constant = PatternProportions::of_built_in_robot().slope_time_constant;
+        let mut slope = GroundSlopeEstimator::new(&PatternProportions::of_built_in_robot());
         (0..1000).for_each(|_| slope.update(step, 1e-3));
         assert!((slope.sensed() - step).norm() < 1e-6);
         for tick in 1..=6000 {
@@ -87,8 +80,8 @@ mod tests {
     /// lag, lean/τ² times the height, to which the ZMP is proportional.
     #[test]
     fn planned_slope_is_smooth_when_measurements_come_now_and_then() {
-        let time_constant = proportions().slope_time_constant;
-        let mut slope = GroundSlopeEstimator::new(&proportions());
+        let time_constant = PatternProportions::of_built_in_robot().slope_time_constant;
+        let mut slope = GroundSlopeEstimator::new(&PatternProportions::of_built_in_robot());
         let mut last = [0.0; 2];
         for knot in 0..300 {
             if knot / 3 % 2 == 0 {
@@ -103,7 +96,7 @@ mod tests {
 
     #[test]
     fn slope_of_a_falling_robot_is_limited() {
-        let mut slope = GroundSlopeEstimator::new(&proportions());
+        let mut slope = GroundSlopeEstimator::new(&PatternProportions::of_built_in_robot());
         for _ in 0..9000 {
             slope.update(Vector2::new(0.6, 0.0), 1e-3);
             slope.advance(1e-3);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use gait::{Admission, Walk};
+use gait::{RangeCheck, Walk};
 use interface::{Command, GaitChange, HalfStep};
 use model::{Joint, Mechanism, Motion};
 use nalgebra::Vector2;
@@ -11,7 +11,9 @@ use crate::execution::Execution;
 use crate::foot_trajectory::FootTrajectory;
 use crate::footprint::Footprint;
 use crate::footstep_plan::FootstepPlan;
-use crate::gait_state::{GaitState, Goal};
+use crate::gait::Gait;
+use crate::gait_phase::GaitPhase;
+use crate::gait_state::{GaitState, Goal, Stance};
 use crate::incremental_replan::PlanChange;
 use crate::knot::{KNOT, Knot};
 use crate::pattern_model::PatternModel;
@@ -107,11 +109,6 @@ impl PatternGenerator {
         self.execution.playback.cancel_speed_override();
     }
 
-    /// Puts in force what the limits of the gait grant of a request, and plans it at once. See [`Walk::admit`].
-    pub fn admit(&mut self, request: &GaitChange) -> Admission {
-        self.plan.admit(&self.model, &self.execution.playback, request)
-    }
-
     /// Changes to another gait and plans it at once, which takes about a millisecond; see
     /// [`set_goal_soon`](Self::set_goal_soon).
     pub fn set_goal(&mut self, goal: Goal) {
@@ -133,107 +130,9 @@ impl PatternGenerator {
         self.plan.replan_soon(&self.model, change, self.execution.playback.elapsed())
     }
 
-    /// The command in force, or in force once the robot walks.
-    pub fn command(&self) -> Command {
-        self.plan.command()
-    }
-
-    /// Advances by `dt` (s), at most a nominal half-step. Returns whether a new half-step began.
-    pub fn advance(&mut self, dt: f64) -> bool {
-        let before = self.half_step().index;
-        let dt = dt.min(self.walk().table().duration).max(0.0);
-        self.execution.playback.advance(dt);
-        while self.execution.playback.passes_knot() {
-            self.plan_knot();
-        }
-        let elapsed = self.execution.playback.elapsed();
-        self.plan.work(&self.model, elapsed / KNOT, elapsed, dt);
-        self.half_step().index != before
-    }
-
-    /// The present half-step.
-    pub fn half_step(&self) -> HalfStep {
-        self.execution.playback.half_step(self.walk().half_step())
-    }
-
-    /// The present speed factor.
-    pub fn speed(&self) -> f64 {
-        self.execution.playback.speed()
-    }
-
-    /// Whether both feet carry weight at present: in a stand, and until the weight has shifted onto the first support
-    /// foot. At a support change the weight is taken to change feet at once.
-    pub fn in_double_support(&self) -> bool {
-        self.execution.playback.support_weight_share() < 1.0
-    }
-
     /// The present motion of the physical joints.
     pub fn physical_motion(&self) -> Motion {
         self.execution.playback.physical_motion()
-    }
-
-    /// The present motion in support coordinates. The joints `FootRoll` and `FootPitch` are the slope of the sole.
-    pub fn motion(&self) -> Motion {
-        let mut motion = self.walk().mirror().to_support(self.half_step().support, &self.physical_motion());
-        let [vertical, rate] =
-            self.execution.playback.vertical().map(|vertical| self.footprint().direction_to_support(vertical));
-        // The rotation that brings the vertical upright.
-        (motion.angles[Joint::FootRoll], motion.angles[Joint::FootPitch]) = (vertical.y, -vertical.x);
-        (motion.rates[Joint::FootRoll], motion.rates[Joint::FootPitch]) = (rate.y, -rate.x);
-        motion
-    }
-
-    /// Growth of an error of the divergent component of motion until touchdown, `e^(ωt)`. `None` when the landing
-    /// cannot be adjusted: soon after the last adjustment, and for the last knots before a support change.
-    pub fn growth_until_touchdown(&self) -> Option<f64> {
-        let knots = self.knots_until_touchdown()?;
-        Some((1.0 + KNOT / self.model.lipm_residual.height_over_gravity.sqrt()).powi(knots as i32))
-    }
-
-    /// Adjusts the landing of the swing foot. Without effect while
-    /// [`growth_until_touchdown`](Self::growth_until_touchdown) is `None`, late in a half-step, and before a stand.
-    ///
-    /// * `error` – of the divergent component at touchdown that the ankles cannot correct, in support coordinates (m)
-    pub fn adjust_step(&mut self, error: Vector2<f64>) {
-        let change = PlanChange { goal: None, step_offset: Some(error) };
-        if self.knots_until_touchdown().is_some()
-            && self.plan.is_worth_adjusting(&self.model, error)
-            && self.replan_soon(change)
-        {
-            self.execution.knots_since_adjustment = 0;
-        }
-    }
-
-    /// Absorbs a measurement of the ground's slope.
-    ///
-    /// * `lean` – of the vertical over the support sole, in support coordinates: x and y of the unit vector (-)
-    /// * `dt` – time since the last tick (s)
-    pub fn update_ground_slope(&mut self, lean: Vector2<f64>, dt: f64) {
-        self.execution.slope.update(self.footprint().direction_to_walk(lean), dt);
-    }
-
-    /// Sets the tilt of the body beyond the plan, about x and y of support coordinates (rad).
-    pub fn set_tilt(&mut self, tilt: Vector2<f64>) {
-        // Just before a support change the newest knot has other support coordinates.
-        if self.walk().half_step().index == self.half_step().index {
-            self.execution.tilt = tilt;
-        }
-    }
-
-    /// Lean of the vertical over the floor as sensed, in support coordinates: x and y of the unit vector (-). The plan
-    /// follows slowly.
-    pub fn sensed_vertical(&self) -> Vector2<f64> {
-        self.footprint().direction_to_support(self.execution.slope.sensed())
-    }
-
-    /// Whether a leg was too short for the newest knot, so that the posture before was kept.
-    pub fn is_leg_out_of_reach(&self) -> bool {
-        self.plan.is_leg_out_of_reach()
-    }
-
-    /// The commanded walk at the newest knot.
-    pub fn walk(&self) -> &Walk {
-        self.plan.walk()
     }
 
     /// The robot as a tree.
@@ -271,6 +170,111 @@ impl PatternGenerator {
     }
 }
 
+impl Gait for PatternGenerator {
+    fn admit(&mut self, request: &GaitChange) -> RangeCheck {
+        self.plan.admit(&self.model, &self.execution.playback, request)
+    }
+
+    fn advance(&mut self, dt: f64) -> bool {
+        let before = self.half_step().index;
+        let dt = dt.min(self.walk().table().duration).max(0.0);
+        self.execution.playback.advance(dt);
+        while self.execution.playback.passes_knot() {
+            self.plan_knot();
+        }
+        let elapsed = self.execution.playback.elapsed();
+        self.plan.work(&self.model, elapsed / KNOT, elapsed, dt);
+        self.half_step().index != before
+    }
+
+    fn motion(&self) -> Motion {
+        let mut motion = self.walk().mirror().to_support(self.half_step().support, &self.physical_motion());
+        let [vertical, rate] =
+            self.execution.playback.vertical().map(|vertical| self.footprint().direction_to_support(vertical));
+        // The rotation that brings the vertical upright.
+        (motion.angles[Joint::FootRoll], motion.angles[Joint::FootPitch]) = (vertical.y, -vertical.x);
+        (motion.rates[Joint::FootRoll], motion.rates[Joint::FootPitch]) = (rate.y, -rate.x);
+        motion
+    }
+
+    fn half_step(&self) -> HalfStep {
+        self.execution.playback.half_step(self.walk().half_step())
+    }
+
+    fn speed(&self) -> f64 {
+        self.execution.playback.speed()
+    }
+
+    fn command(&self) -> Command {
+        self.plan.command()
+    }
+
+    /// What is planned for the newest knot, as far as it has begun.
+    fn phase(&self) -> GaitPhase {
+        match (self.gait_state(), self.in_double_support()) {
+            (GaitState::Standing(stance), true) => GaitPhase::Standing(stance),
+            (GaitState::Standing(_) | GaitState::Stopping { .. }, _) => GaitPhase::Stopping,
+            (_, true) => GaitPhase::Starting,
+            (GaitState::Walking | GaitState::Starting { .. }, false) => GaitPhase::Walking,
+            (GaitState::InPlace { .. }, false) => GaitPhase::InPlace,
+        }
+    }
+
+    fn walk(&self) -> &Walk {
+        self.plan.walk()
+    }
+
+    fn stop(&mut self, stance: Stance) {
+        self.set_goal_soon(Goal::Stand(stance));
+    }
+
+    fn can_restart(&self) -> bool {
+        true
+    }
+
+    fn follows_walk(&self) -> bool {
+        true
+    }
+
+    fn in_double_support(&self) -> bool {
+        self.execution.playback.support_weight_share() < 1.0
+    }
+
+    fn is_leg_out_of_reach(&self) -> bool {
+        self.plan.is_leg_out_of_reach()
+    }
+
+    fn sensed_vertical(&self) -> Vector2<f64> {
+        self.footprint().direction_to_support(self.execution.slope.sensed())
+    }
+
+    fn update_ground_slope(&mut self, lean: Vector2<f64>, dt: f64) {
+        self.execution.slope.update(self.footprint().direction_to_walk(lean), dt);
+    }
+
+    fn set_tilt(&mut self, tilt: Vector2<f64>) {
+        // Just before a support change the newest knot has other support coordinates.
+        if self.walk().half_step().index == self.half_step().index {
+            self.execution.tilt = tilt;
+        }
+    }
+
+    fn growth_until_touchdown(&self) -> Option<f64> {
+        let knots = self.knots_until_touchdown()?;
+        Some((1.0 + KNOT / self.model.lipm_residual.height_over_gravity.sqrt()).powi(knots as i32))
+    }
+
+    fn adjust_step(&mut self, error: Vector2<f64>) {
+        let change = PlanChange { goal: None, step_offset: Some(error) };
+        if self.knots_until_touchdown().is_some()
+            && self.plan.is_worth_adjusting(&self.model, error)
+            && self.replan_soon(change)
+        {
+            self.execution.knots_since_adjustment = 0;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use std::time::Duration;
@@ -279,7 +283,6 @@ mod tests {
     use gait::{GaitParameters, Limits, NominalTable, RampKind, Start};
 
     use super::*;
-    use crate::gait_state::Stance;
 
     fn walking() -> PatternGenerator {
         let config = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config");

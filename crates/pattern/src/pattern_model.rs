@@ -8,7 +8,7 @@ use nalgebra::Point3;
 use crate::knot::KNOT;
 use crate::lipm_residual::LipmResidual;
 use crate::preview_controller::PreviewController;
-use crate::proportions::Proportions;
+use crate::proportions::PatternProportions;
 
 /// Knots of the ZMP reference: 1.8 s, after which e^(−6) is left of the influence of a reference.
 pub(crate) const KNOTS_PREVIEWED: usize = 180;
@@ -29,7 +29,7 @@ pub(crate) struct PatternModel {
     /// The left–right symmetry.
     pub mirror: Mirror,
     /// Lengths and times that suit the size of the robot.
-    pub proportions: Proportions,
+    pub proportions: PatternProportions,
     /// The part of the nominal half-step's ZMP that the cart-table model leaves out.
     pub lipm_residual: LipmResidual,
     /// Displacement of the centre of mass per displacement of the pelvis while both feet stay (-).
@@ -52,7 +52,7 @@ impl PatternModel {
             mechanism: mechanism.clone(),
             mirror: *mirror,
             legs: LegSolver::new(mechanism),
-            proportions: Proportions::of(mechanism),
+            proportions: PatternProportions::of(mechanism),
             com_per_pelvis: com_per_pelvis(mechanism, &tree, table),
             tree,
             lipm_residual,

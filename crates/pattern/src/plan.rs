@@ -1,7 +1,7 @@
 //! The plan: the motion from the newest knot on. Another plan can take its place as a whole.
 
 use dynamics::Kinematics;
-use gait::{Admission, Walk};
+use gait::{RangeCheck, Walk};
 use interface::{Command, GaitChange};
 use model::{GRAVITY, Motion};
 use nalgebra::Vector2;
@@ -89,7 +89,7 @@ impl Plan {
     /// Puts in force what the limits of the gait grant of a request, and plans it; see [`Walk::admit`].
     ///
     /// * `playback` – whose speed override, if there is one, the plan takes over
-    pub(crate) fn admit(&mut self, model: &PatternModel, playback: &Playback, request: &GaitChange) -> Admission {
+    pub(crate) fn admit(&mut self, model: &PatternModel, playback: &Playback, request: &GaitChange) -> RangeCheck {
         let before = self.command();
         let footsteps = &mut self.foot_trajectory.footsteps;
         let admission = footsteps.admit(request);

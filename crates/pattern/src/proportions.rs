@@ -8,7 +8,7 @@ use nalgebra::Vector2;
 
 /// Lengths and times that suit the size of the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Proportions {
+pub(crate) struct PatternProportions {
     /// Longest distance of hip joint and ankle joint that the hip height is planned for (m).
     pub planned_leg_length_max: f64,
     /// Longest distance of hip joint and ankle joint that inverse kinematics uses (m).
@@ -62,7 +62,7 @@ const SENSED_VERTICAL_TIME_CONSTANT: f64 = 0.05;
 /// About the time constant of the pendulum, 0.31 s: drives and soles yield within a step, a slope stays (s).
 const SLOPE_TIME_CONSTANT: f64 = 0.25;
 
-impl Proportions {
+impl PatternProportions {
     /// The proportions of a robot.
     pub(crate) fn of(mechanism: &Mechanism) -> Self {
         let length = |joint: Joint| mechanism.links[joint].origin.norm();
@@ -81,5 +81,12 @@ impl Proportions {
             sensed_vertical_time_constant: SENSED_VERTICAL_TIME_CONSTANT,
             slope_time_constant: SLOPE_TIME_CONSTANT,
         }
+    }
+
+    /// The proportions of the built-in robot.
+    #[cfg(test)]
+    pub(crate) fn of_built_in_robot() -> Self {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism.toml");
+        Self::of(&<Mechanism as config::Config>::load(file).unwrap())
     }
 }

@@ -1,7 +1,8 @@
 //! A stop in stride: at a support change, with both soles on the ground, the pelvis is brought to rest.
 //!
-//! The pelvis' velocity decays as `e^(−ωt)` with the pendulum's own `ω`, so that the ZMP stays at the divergent component of
-//! motion of the support change, in the front foot; both soles keep their places, by leg inverse kinematics.
+//! The pelvis' velocity decays as `e^(−ωt)` with the pendulum's own `ω`, so that the ZMP stays at the divergent
+//! component of motion of the support change, in the front foot; both soles keep their places, by leg inverse
+//! kinematics.
 
 use dynamics::{Kinematics, Leg, Tree, solve_leg};
 use model::{Joint, Motion, Side};

@@ -4,7 +4,7 @@
 use nalgebra::Vector2;
 use signal::CriticallyDamped;
 
-use crate::proportions::Proportions;
+use crate::proportions::PatternProportions;
 
 /// Additional height of the swing sole, so that it is where it was planned over the real floor: a critically damped
 /// lag.
@@ -19,7 +19,13 @@ impl SwingClearance {
     ///
     /// * `tilt` – of the body beyond the plan, about x and y of support coordinates (rad)
     /// * `sole` – the swing sole, in support coordinates (m)
-    pub(crate) fn advance(&mut self, proportions: &Proportions, tilt: Vector2<f64>, sole: Vector2<f64>, dt: f64) {
+    pub(crate) fn advance(
+        &mut self,
+        proportions: &PatternProportions,
+        tilt: Vector2<f64>,
+        sole: Vector2<f64>,
+        dt: f64,
+    ) {
         let lost = tilt.x * sole.y - tilt.y * sole.x;
         let max = proportions.swing_clearance_max;
         self.height.advance((-lost).clamp(-max, max), proportions.swing_clearance_time_constant, dt);
@@ -43,16 +49,9 @@ impl SwingClearance {
 
 #[cfg(test)]
 mod tests {
-    use config::Config;
-    use model::Mechanism;
     use nalgebra::{Rotation3, Vector3};
 
     use super::*;
-
-    fn proportions() -> Proportions {
-        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism.toml");
-        Proportions::of(&Mechanism::load(file).unwrap())
-    }
 
     /// The oracle: the body rotated about O carries the sole along.
     #[test]
@@ -60,7 +59,7 @@ mod tests {
         let (tilt, sole) = (Vector2::new(0.02, 0.03), Vector2::new(0.2, 0.19));
         let mut clearance = SwingClearance::default();
         for _ in 0..100 {
-            clearance.advance(&proportions(), tilt, sole, 0.01);
+            clearance.advance(&PatternProportions::of_built_in_robot(), tilt, sole, 0.01);
         }
         let rotated = Rotation3::new(tilt.push(0.0)) * Vector3::new(sole.x, sole.y, clearance.of_sole());
         assert!(rotated.z.abs() < 2e-4, "{}", rotated.z);
@@ -69,7 +68,12 @@ mod tests {
     #[test]
     fn hip_heights_over_both_soles_do_not_jump_at_a_support_change() {
         let mut clearance = SwingClearance::default();
-        clearance.advance(&proportions(), Vector2::new(0.02, 0.03), Vector2::new(0.2, 0.19), 0.01);
+        clearance.advance(
+            &PatternProportions::of_built_in_robot(),
+            Vector2::new(0.02, 0.03),
+            Vector2::new(0.2, 0.19),
+            0.01,
+        );
         let before = [clearance.of_hips(), clearance.of_hips() - clearance.of_sole()];
         clearance.change_support();
         let after = [clearance.of_hips() - clearance.of_sole(), clearance.of_hips()];

@@ -1,13 +1,15 @@
-//! The uncompensated gait: the plain sum of the modifications, whose balance nobody plans (the paper's own starting point).
+//! The uncompensated gait: the plain sum of the modifications, whose balance nobody plans (the paper's own starting
+//! point).
 //!
 //! It walks until it is told to stop, stops in stride at the next support change, and cannot start again from there.
 
 use dynamics::{Kinematics, Tree};
-use gait::{Admission, Walk};
-use interface::GaitChange;
+use gait::{RangeCheck, Walk};
+use interface::{Command, GaitChange, HalfStep};
 use model::{ComState, Mechanism, Motion};
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
+use crate::gait::Gait;
 use crate::stop_in_stride::StopInStride;
 use crate::{GaitPhase, Goal, Stance};
 
@@ -27,18 +29,24 @@ impl UncompensatedGait {
         Self { tree: Tree::new(mechanism), walk, goal: Goal::Walk, stop: None }
     }
 
-    /// Changes the gait parameters. See [`Walk::admit`].
-    pub fn admit(&mut self, change: &GaitChange) -> Admission {
-        self.walk.admit(change)
-    }
-
     /// Walks on, or stops at the next support change. It cannot step in place: it walks instead.
     pub fn set_goal(&mut self, goal: Goal) {
         self.goal = goal;
     }
 
-    /// Moves on by `dt` (s) and returns whether a new half-step began.
-    pub fn advance(&mut self, dt: f64) -> bool {
+    /// Whether it has stopped, for good.
+    pub fn has_stopped(&self) -> bool {
+        self.stop.is_some()
+    }
+}
+
+/// It knows level floors only, and adjusts no step.
+impl Gait for UncompensatedGait {
+    fn admit(&mut self, change: &GaitChange) -> RangeCheck {
+        self.walk.admit(change)
+    }
+
+    fn advance(&mut self, dt: f64) -> bool {
         if let Some(stop) = &mut self.stop {
             stop.advance(&self.tree, dt);
             return false;
@@ -53,18 +61,23 @@ impl UncompensatedGait {
         changes_support
     }
 
-    /// The commanded motion, in support coordinates.
-    pub fn motion(&self) -> Motion {
+    fn motion(&self) -> Motion {
         self.stop.as_ref().map_or_else(|| self.walk.motion(), StopInStride::motion)
     }
 
-    /// Whether it has stopped, for good.
-    pub fn has_stopped(&self) -> bool {
-        self.stop.is_some()
+    fn half_step(&self) -> HalfStep {
+        self.walk().half_step()
     }
 
-    /// Walking, stopping or standing in stride.
-    pub fn phase(&self) -> GaitPhase {
+    fn speed(&self) -> f64 {
+        self.walk().speed().state().value
+    }
+
+    fn command(&self) -> Command {
+        self.walk().command()
+    }
+
+    fn phase(&self) -> GaitPhase {
         match (&self.stop, self.goal) {
             (Some(_), _) => GaitPhase::Standing(Stance::Stride),
             (None, Goal::Stand(_)) => GaitPhase::Stopping,
@@ -72,8 +85,41 @@ impl UncompensatedGait {
         }
     }
 
-    /// The modified half-step.
-    pub fn walk(&self) -> &Walk {
+    fn walk(&self) -> &Walk {
         &self.walk
     }
+
+    fn stop(&mut self, stance: Stance) {
+        self.set_goal(Goal::Stand(stance));
+    }
+
+    fn can_restart(&self) -> bool {
+        !self.has_stopped()
+    }
+
+    fn follows_walk(&self) -> bool {
+        !self.has_stopped()
+    }
+
+    fn in_double_support(&self) -> bool {
+        false
+    }
+
+    fn is_leg_out_of_reach(&self) -> bool {
+        false
+    }
+
+    fn sensed_vertical(&self) -> Vector2<f64> {
+        Vector2::zeros()
+    }
+
+    fn update_ground_slope(&mut self, _: Vector2<f64>, _: f64) {}
+
+    fn set_tilt(&mut self, _: Vector2<f64>) {}
+
+    fn growth_until_touchdown(&self) -> Option<f64> {
+        None
+    }
+
+    fn adjust_step(&mut self, _: Vector2<f64>) {}
 }

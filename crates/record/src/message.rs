@@ -15,8 +15,8 @@ pub struct TickMessage {
     pub dt: f64,
     /// Number of the request that was passed to the controller before the tick; 0 for none.
     pub request: u32,
-    /// A `controller::AdmissionTiming` as a number: whether the result of an admission was returned to the controller before the
-    /// tick.
+    /// A `controller::AdmissionTiming` as a number: whether the result of an admission was returned to the controller
+    /// before the tick.
     pub returned: u32,
     /// Commanded speed factor `c` (-); the report has the present one, on its ramp.
     pub speed_in_force: f64,

@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use crossbeam::queue::ArrayQueue;
 
-/// How long the thread sleeps when there is nothing to do: were the loop to wake it, that would be a system call.
+/// Time that the thread sleeps when the ring is empty. The loop does not wake it, since that would be a system call.
 const POLL_INTERVAL: Duration = Duration::from_millis(1);
 
 /// The loop's end of a journal. Dropping it closes the journal.

@@ -7,7 +7,7 @@ use nalgebra::{Vector2, Vector3};
 use signal::{LowPass, critically_damped_rate};
 
 use crate::balance_state::BalanceState;
-use crate::proportions::Proportions;
+use crate::proportions::StabilizerProportions;
 
 /// The joints of the support ankle.
 const SUPPORT_ANKLE: [Joint; 2] = [Joint::RightAnkleRoll, Joint::RightAnklePitch];
@@ -23,7 +23,8 @@ pub type AnkleLean = Vector2<f64>;
 /// Parameters of [`DcmFeedback`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FeedbackParameters {
-    /// ZMP shift per error of the divergent component of motion; above 1 the error shrinks. 0 switches feedback off.
+    /// ZMP shift per error of the divergent component of motion (m/m); above 1 the error shrinks. 0 switches feedback
+    /// off.
     pub gain: f64,
     /// Stiffness of an ankle's drive (N·m/rad): the moment on the ground per angle.
     pub ankle_stiffness: f64,
@@ -43,7 +44,7 @@ pub struct FeedbackParameters {
 #[derive(Clone, Debug)]
 pub struct DcmFeedback {
     parameters: FeedbackParameters,
-    proportions: Proportions,
+    proportions: StabilizerProportions,
     /// Lean per ZMP shift (rad/m): the moment that shifts the ZMP by a metre, over the stiffness of the ankle.
     lean_per_shift: f64,
     /// Axes of [`SUPPORT_ANKLE`].
@@ -63,7 +64,7 @@ pub struct DcmFeedback {
 impl DcmFeedback {
     /// No error, no lean.
     pub fn new(mechanism: &Mechanism, parameters: FeedbackParameters) -> Self {
-        let proportions = Proportions::of(mechanism);
+        let proportions = StabilizerProportions::of(mechanism);
         let axis = |joint| mechanism.links[joint].axis.into_inner();
         Self {
             lean_per_shift: proportions.weight / parameters.ankle_stiffness,
@@ -156,7 +157,7 @@ impl DcmFeedback {
 
     /// The nearest point of the sole that keeps its distance to the edge (m).
     fn inside_sole(&self, zmp: Vector2<f64>) -> Vector2<f64> {
-        let Proportions { sole_half_size, sole_centre, .. } = self.proportions;
+        let StabilizerProportions { sole_half_size, sole_centre, .. } = self.proportions;
         let room = (sole_half_size - Vector2::repeat(self.parameters.edge)).map(|size| size.max(0.0));
         (zmp - sole_centre).zip_map(&room, |zmp, room| zmp.min(room).max(-room)) + sole_centre
     }
@@ -164,7 +165,7 @@ impl DcmFeedback {
     /// How far the ZMP can move from under the ankle in the direction of an error (m). A walk has it there; its present
     /// place must not count, since a step that is planned anew moves that, and would take back itself.
     fn room_towards(&self, error: Vector2<f64>) -> Vector2<f64> {
-        let Proportions { sole_half_size, sole_centre, .. } = self.proportions;
+        let StabilizerProportions { sole_half_size, sole_centre, .. } = self.proportions;
         let edge = sole_half_size - Vector2::repeat(self.parameters.edge);
         (edge + sole_centre.component_mul(&error.map(f64::signum))).map(|room| room.max(0.0))
     }

@@ -8,14 +8,14 @@ use dynamics::{Kinematics, Leg, LegSolver, Tree};
 use model::{JointVector, Mechanism, Mirror, Mirrored, Motion, Side};
 use nalgebra::{Isometry3, Translation3};
 
-use crate::proportions::Proportions;
+use crate::proportions::StabilizerProportions;
 
 /// The offsets of both feet from their planned heights, and of the joints that realise them.
 #[derive(Clone, Debug)]
 pub struct LandingCompliance {
     parameters: LandingParameters,
     legs: LegSolver,
-    proportions: Proportions,
+    proportions: StabilizerProportions,
     /// Height of the support and of the swing foot over the planned one, under the pelvis (m).
     lifts: [f64; 2],
     /// Angles and rates of the offsets, in support coordinates.
@@ -44,7 +44,7 @@ impl LandingCompliance {
         Self {
             parameters,
             legs: LegSolver::new(mechanism),
-            proportions: Proportions::of(mechanism),
+            proportions: StabilizerProportions::of(mechanism),
             lifts: [0.0; 2],
             offsets: Motion::default(),
         }
@@ -56,7 +56,7 @@ impl LandingCompliance {
     ///   yield
     /// * `dt` – time since the last update (s)
     pub fn update(&mut self, loads: Option<[f64; 2]>, dt: f64) {
-        let Proportions { weight, landing_lift_max, .. } = self.proportions;
+        let StabilizerProportions { weight, landing_lift_max, .. } = self.proportions;
         let [support, swing] = loads.map_or([1.0, 0.0], |loads| loads.map(|load| load / weight));
         let unexpected = [(support - SUPPORT_SHARE_MIN).min(0.0), (swing - SWING_SHARE_MAX).max(0.0)];
         for (lift, share) in self.lifts.iter_mut().zip(unexpected) {

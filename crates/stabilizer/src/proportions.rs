@@ -8,7 +8,7 @@ use nalgebra::Vector2;
 
 /// Lengths and forces that suit the size of the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Proportions {
+pub(crate) struct StabilizerProportions {
     /// Weight of the robot (N).
     pub weight: f64,
     /// Half of the sole's length and width (m).
@@ -44,7 +44,7 @@ const FOOT_DAMPING_ZMP_SHIFT_MAX: f64 = 0.6;
 /// 3 % of the leg length: bumps and holes up to this size (m).
 const LANDING_LIFT_MAX: f64 = 0.03;
 
-impl Proportions {
+impl StabilizerProportions {
     /// The proportions of a robot.
     pub(crate) fn of(mechanism: &Mechanism) -> Self {
         let sole = &mechanism.sole;

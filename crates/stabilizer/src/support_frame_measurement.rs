@@ -16,7 +16,7 @@ pub struct SupportFrameMeasurement {
     pub support_foot: Wrench,
     /// Wrench of the ground on the swing foot, about the origin of its sole in sole axes.
     pub swing_foot: Wrench,
-    /// The vertical, in the axes of the trunk.
+    /// The vertical, a unit vector in the axes of the trunk (-).
     pub up_in_trunk: Vector3<f64>,
     /// Angular rate of the trunk, in its own axes (rad/s).
     pub trunk_rate: Vector3<f64>,

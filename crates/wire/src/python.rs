@@ -82,8 +82,9 @@ fn class(layout: &Layout) -> String {
     }
     let _ = write!(
         text,
-        "    ]\n\n    @staticmethod\n    def type_name() -> str:\n        \"\"\"What shared memory calls it.\"\"\"\n        \
-         return \"{type_name}\"\n"
+        "    ]\n\n    @staticmethod\n    def type_name() -> str:\n        \"\"\"What shared memory calls it.\"\"\"\n\
+         {:8}return \"{type_name}\"\n",
+        ""
     );
     text
 }
@@ -99,7 +100,8 @@ mod tests {
         let committed = std::fs::read_to_string(file).expect("the committed module");
         assert!(
             committed == python_messages(),
-            "messages.py is out of date: write it anew with `halfstep export python --out tools/python/halfstep/messages.py`"
+            "messages.py is out of date: write it anew with `halfstep export python --out \
+             tools/python/halfstep/messages.py`"
         );
     }
 

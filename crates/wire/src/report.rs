@@ -18,7 +18,7 @@ const MAX_NODES: usize = 24;
 /// Reports kept for each subscriber until it reads them.
 const BUFFER: usize = 64;
 
-type Service = PortFactory<Ipc, ReportMessage, ()>;
+type ReportService = PortFactory<Ipc, ReportMessage, ()>;
 
 fn contract(instance: &Instance) -> ServiceContract<'_> {
     ServiceContract::new(instance, "report", MessagingPattern::PublishSubscribe, None)
@@ -44,7 +44,7 @@ pub struct ReportPublisher {
 impl ReportPublisher {
     pub(crate) fn connect(instance: &Instance, node: &Node<Ipc>) -> Result<Self, ConnectError> {
         let contract = contract(instance).at_rate();
-        let service: Service = contract.open_or_create(
+        let service: ReportService = contract.open_or_create(
             || builder(&contract, node).open(),
             |attributes| builder(&contract, node).create_with_attributes(attributes),
         )?;
@@ -75,7 +75,7 @@ pub struct ReportSubscriber {
 impl ReportSubscriber {
     pub(crate) fn connect(instance: &Instance, node: &Node<Ipc>) -> Result<Self, ConnectError> {
         let contract = contract(instance);
-        let service: Service = contract.open(|| builder(&contract, node).open())?;
+        let service: ReportService = contract.open(|| builder(&contract, node).open())?;
         let subscriber =
             service.subscriber_builder().create().map_err(|cause| contract.memory_error("connect to", cause))?;
         Ok(Self { subscriber, rate_hz: rate_hz(&service) })

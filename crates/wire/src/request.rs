@@ -27,7 +27,7 @@ const POLL_INTERVAL: Duration = Duration::from_millis(1);
 /// Time between two checks of a waiting operator whether the controller is still alive, which cost more.
 const LIVENESS_INTERVAL: Duration = Duration::from_millis(200);
 
-type Service = PortFactory<Ipc, RequestMessage, (), ReplyMessage, ()>;
+type RequestService = PortFactory<Ipc, RequestMessage, (), ReplyMessage, ()>;
 
 fn contract(instance: &Instance) -> ServiceContract<'_> {
     ServiceContract::new(instance, "request", MessagingPattern::RequestResponse, None)
@@ -57,7 +57,7 @@ pub struct RequestServer {
 impl RequestServer {
     pub(crate) fn connect(instance: &Instance, node: &Node<Ipc>) -> Result<Self, ConnectError> {
         let contract = contract(instance).at_rate();
-        let service: Service = contract.open_or_create(
+        let service: RequestService = contract.open_or_create(
             || builder(&contract, node).open(),
             |attributes| builder(&contract, node).create_with_attributes(attributes),
         )?;
@@ -105,14 +105,14 @@ impl fmt::Debug for Responder {
 #[derive(Debug)]
 pub struct RequestClient {
     instance: String,
-    service: Service,
+    service: RequestService,
     client: Client<Ipc, RequestMessage, (), ReplyMessage, ()>,
 }
 
 impl RequestClient {
     pub(crate) fn connect(instance: &Instance, node: &Node<Ipc>) -> Result<Self, ConnectError> {
         let contract = contract(instance);
-        let service: Service = contract.open(|| builder(&contract, node).open())?;
+        let service: RequestService = contract.open(|| builder(&contract, node).open())?;
         let client = service
             .client_builder()
             .backpressure_strategy(BackpressureStrategy::DiscardData)

@@ -49,8 +49,8 @@ enum What {
         #[arg(long, value_name = "N", default_value_t = 5)]
         rounds: u32,
         /// Duration of each round
-        #[arg(long, value_name = "DURATION", value_parser = duration, default_value = "300ms")]
-        turn: Duration,
+        #[arg(long, alias = "turn", value_name = "DURATION", value_parser = duration, default_value = "300ms")]
+        slice: Duration,
     },
     /// Exchange between two processes, against iceoryx2 and plain shared memory; latency of the controller
     Latency {
@@ -102,7 +102,7 @@ impl BenchArgs {
                 answer(&Instance::new(instance.as_str())?, &scheduling)?;
                 return Ok(Status::Success);
             }
-            What::Compute { rounds, turn } => self.compute(*rounds, *turn)?,
+            What::Compute { rounds, slice } => self.compute(*rounds, *slice)?,
             What::Latency { rounds, trips, requests } => self.latency(*rounds, *trips, *requests)?,
             What::Jitter { segments, segment } => self.jitter(*segments, *segment)?,
         };
@@ -118,7 +118,7 @@ impl BenchArgs {
         Ok(Status::Success)
     }
 
-    fn compute(&self, rounds: u32, turn: Duration) -> Result<BenchReport, CliError> {
+    fn compute(&self, rounds: u32, slice: Duration) -> Result<BenchReport, CliError> {
         let Loaded { robot, controller, plant, realtime } = self.load()?;
         let Scheduling { core, lock_memory, .. } = realtime.controller;
         let options = ComputeOptions {
@@ -127,7 +127,7 @@ impl BenchArgs {
             controller,
             plant,
             rounds,
-            slice: turn,
+            slice,
             period: realtime.rate.period_s(),
             scheduling: Scheduling { core, lock_memory, ..Scheduling::default() },
         };
@@ -245,7 +245,8 @@ fn cores(realtime: &RealtimeParameters) -> Result<[usize; 2], CliError> {
     match cores.iter().find(|core| **core >= count) {
         None => Ok(cores),
         Some(core) => Err(CliError::new(format!(
-            "needs core {core} (config/realtime.toml), but only {count} are available; busy-waiting threads need a dedicated core"
+            "needs core {core} (config/realtime.toml), but only {count} are available; busy-waiting threads need a \
+             dedicated core"
         ))),
     }
 }

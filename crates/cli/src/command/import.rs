@@ -96,7 +96,8 @@ fn synthesize_line(mechanism: &Mechanism, folder: &Path) -> String {
     let hip_height = mechanism.sole.ankle_height + (default.hip_height - DEFAULT_ANKLE) * scale;
     let folder = folder.display();
     format!(
-        "halfstep synthesize --mechanism {folder}/mechanism.toml --out {folder}/nominal_half_step.csv --step-length {:.3} \
+        "halfstep synthesize --mechanism {folder}/mechanism.toml --out {folder}/nominal_half_step.csv --step-length \
+         {:.3} \
          --duration {:.2} --clearance {:.3} --hip-height {hip_height:.3} --pelvis-sway {:.3} --pelvis-setback {:.3} \
          --pendulum-height {:.3}",
         default.step_length * scale,

@@ -22,9 +22,9 @@ use clap::{Parser, Subcommand};
 use crate::error::CliError;
 use crate::status::Status;
 
-/// Online gait modification for a 20-joint biped.
+/// Walk a biped from one nominal half-step, and modify the gait online
 #[derive(Debug, Parser)]
-#[command(version, about)]
+#[command(version, max_term_width = 100)]
 pub(crate) struct Halfstep {
     #[command(subcommand)]
     command: HalfstepCommand,
@@ -78,9 +78,29 @@ impl Halfstep {
 #[cfg(test)]
 mod tests {
     use clap::CommandFactory;
+    use expect_test::expect_file;
+
+    use super::Halfstep;
 
     #[test]
     fn the_command_line_is_consistent() {
-        super::Halfstep::command().debug_assert();
+        Halfstep::command().debug_assert();
+    }
+
+    /// The help of a command and of all commands below it that users see.
+    fn help(command: &mut clap::Command, path: &str, text: &mut String) {
+        *text += &format!("$ {path} --help\n{}\n", command.render_long_help());
+        for below in command.get_subcommands_mut().filter(|below| !below.is_hide_set()) {
+            help(below, &format!("{path} {}", below.get_name()), text);
+        }
+    }
+
+    #[test]
+    fn the_help_of_every_command_is_the_pinned_text() {
+        let mut text = String::new();
+        let mut halfstep = Halfstep::command().term_width(100);
+        halfstep.build();
+        help(&mut halfstep, "halfstep", &mut text);
+        expect_file!["../../tests/help.txt"].assert_eq(&text);
     }
 }

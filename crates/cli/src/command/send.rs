@@ -20,8 +20,8 @@ use crate::status::Status;
 pub(super) struct SendArgs {
     #[command(flatten)]
     instance: InstanceOption,
-    /// Keep command for this time, e.g. 5s: sources with less priority are refused, and at its end, unless something
-    /// else was sent, the walk comes to a stand. Without it what is asked lasts until another request changes it
+    /// Hold control authority for this long, e.g. 5s: lower-priority sources are refused, and the robot stops when it
+    /// expires unless another request has arrived [default: the request stays in effect until replaced]
     #[arg(long = "for", value_name = "DURATION", value_parser = duration, global = true)]
     duration: Option<Duration>,
     #[command(subcommand)]

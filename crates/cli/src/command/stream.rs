@@ -20,11 +20,12 @@ use crate::status::Status;
 /// Send JSON-lines commands from a file or stdin to a running controller and print each reply
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "Each line is a JSON object such as {\"t\":1.5,\"turn_deg\":10,\"speed\":1.2,\
-\"extension_deg\":0,\"intent\":\"stop\"}: t in seconds of the controller's time since the stream began, or absent for at \
-once; the others as needed. A line that is wrong is reported with its number, and the stream goes on.\n\n\
-While the stream is open it is in command, also between two lines: sources with less priority are refused. If it is \
-killed or interrupted, the walk comes to a stand after the age limit. At the end of the input it takes its leave: what it \
-asked lasts until another request changes it, unless --stop-at-end.")]
+\"extension_deg\":0,\"intent\":\"stop\"}. t is the controller's time since the stream began, in seconds; without t the \
+line is sent at once. All other keys are optional. A wrong line is reported with its number, and the stream \
+continues.\n\n\
+While the stream is open, also between two lines, it has control authority: sources of lower priority are refused. If \
+it is killed or interrupted, the robot stops after the command timeout. At the end of the input it releases control: \
+what it requested stays in force until another request changes it, unless --stop-at-end is given.")]
 pub(super) struct StreamArgs {
     #[command(flatten)]
     instance: InstanceOption,

@@ -53,7 +53,8 @@ fn move_axis(
     hinge.place = wanted;
     if off > idealise.axes_moved_max.max(ROUNDING) {
         errors.note(format!(
-            "{}: its axis is {:.1} mm off; the axes of hip and ankle must meet in one point each, hip, knee and ankle stand \
+            "{}: its axis is {:.1} mm off; the axes of hip and ankle must meet in one point each, hip, knee and ankle \
+             stand \
              above each other: allow to move it with idealise.axes_moved_max_m = {}",
             joint.name(),
             off * 1e3,

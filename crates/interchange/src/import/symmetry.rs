@@ -98,7 +98,8 @@ impl Greatest {
         let ((length, long), (share, large)) = (&self.length, &self.share);
         if *length > idealise.asymmetry_max.max(ROUNDING) {
             errors.note(format!(
-                "{long} is {:.2} mm off its mean with the other side's mirror image; both sides must be alike: allow to \
+                "{long} is {:.2} mm off its mean with the other side's mirror image; both sides must be alike: allow \
+                 to \
                  take the mean with idealise.asymmetry_max_m = {}",
                 length * 1e3,
                 up(*length, 1e5)

@@ -31,7 +31,8 @@ pub(super) fn straight_biped(
         let wrong = match &reached[joint] {
             None => Some("must be connected to the right foot through mapped joints".to_string()),
             Some(Reached { parent, .. }) if joint.is_in_leg() && *parent != below => Some(format!(
-                "must be mounted on {}, next to {}: from foot to foot the joints are ankle roll, ankle pitch, knee, hip \
+                "must be mounted on {}, next to {}: from foot to foot the joints are ankle roll, ankle pitch, knee, \
+                 hip \
                  pitch, hip yaw, hip roll, and the same down again; here it is next to {}",
                 carried(below),
                 below.name(),
@@ -138,7 +139,8 @@ fn hinge(
     if !wanted_axes(joint).is_empty() && !wanted_axes(joint).contains(&axis.into_inner()) {
         let wanted: Vec<&str> = wanted_axes(joint).iter().map(|axis| axis_name(axis)).collect();
         errors.note(format!(
-            "{name}: its axis, standing straight, is [{:.4}, {:.4}, {:.4}]; it must lie along {} (x forward, y left, z up)",
+            "{name}: its axis, standing straight, is [{:.4}, {:.4}, {:.4}]; it must lie along {} (x forward, y left, \
+             z up)",
             axis.x,
             axis.y,
             axis.z,
@@ -154,7 +156,8 @@ fn hinge(
     if !(range[0] <= mapped.straight && mapped.straight <= range[1] && range[0] < range[1]) {
         let [lower, upper, straight] = [range[0], range[1], mapped.straight].map(f64::to_degrees);
         errors.note(format!(
-            "{name}: its range is {lower:.2}° to {upper:.2}°; it must have {straight:.2}° inside, where it stands straight: \
+            "{name}: its range is {lower:.2}° to {upper:.2}°; it must have {straight:.2}° inside, where it stands \
+             straight: \
              give range_deg in the map"
         ));
     }

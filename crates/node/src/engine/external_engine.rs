@@ -97,7 +97,8 @@ pub enum EngineError {
     Ended(std::io::Error),
     /// The engine's protocol is a different one.
     #[error(
-        "engine protocol mismatch: expected protocol {PROTOCOL} with records of {SETPOINT_LEN} and {STATE_LEN} numbers, got {0}"
+        "engine protocol mismatch: expected protocol {PROTOCOL} with records of {SETPOINT_LEN} and {STATE_LEN} \
+         numbers, got {0}"
     )]
     Mismatch(String),
     /// The engine's simulation has diverged.

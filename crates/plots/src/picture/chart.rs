@@ -17,7 +17,7 @@ pub type Point = [f64; 2];
 pub struct Pen {
     /// Colour as in HTML: `#0072B2`.
     pub colour: &'static str,
-    /// Line width (px at scale 1).
+    /// Line width (px), at scale 1.
     pub width: f64,
     /// Whether the line is dashed.
     pub dashed: bool,
@@ -192,7 +192,7 @@ impl Chart {
 pub struct Panel {
     /// The chart that is shown.
     pub chart: Chart,
-    /// Lowest and highest y of the axis.
+    /// Lowest and highest y of the axis, in the unit of the curves.
     pub y_range: (f64, f64),
     /// Height of the axes (px).
     pub height: f64,
@@ -227,7 +227,7 @@ pub fn stack(title: &str, x_range: (f64, f64), mut panels: Vec<Panel>) -> String
 pub struct Map {
     /// The chart that is shown.
     pub chart: Chart,
-    /// Scale of both axes [px per unit].
+    /// Scale of both axes (px/m).
     pub scale: f64,
 }
 

@@ -25,7 +25,7 @@ pub fn margin_over_time(log: &RunLog, mechanism: &Mechanism) -> String {
     every.draw("ZMP measured, to the edge", measured, margins.over_time(|margin| margin.measured));
     every.level("edge of what bears", &[0.0], edge);
 
-    let mut least = TimePanel::new("least, off the swaps [mm]", &ALWAYS);
+    let mut least = TimePanel::new("least, off support changes [mm]", &ALWAYS);
     least.draw("ZMP planned, to the edge", planned, margins.least(|margin| margin.planned));
     least.draw("ZMP measured, to the edge", measured, margins.least(|margin| margin.measured));
     least.level("edge of what bears", &[0.0], edge);
@@ -37,7 +37,7 @@ pub fn margin_over_time(log: &RunLog, mechanism: &Mechanism) -> String {
 struct Margin {
     time: f64,
     half_step: u64,
-    is_off_swaps: bool,
+    is_off_support_changes: bool,
     measured: Option<f64>,
     /// Margin of the planned point in the hull of the support sole and, if loaded, the other one; `None` near support
     /// changes.
@@ -53,11 +53,12 @@ impl Margins {
             let plant = log.plant_at(row.time)?;
             let foot = plant.footprint(mechanism, &tree, row.support);
             let support = plant.hull_of_soles(mechanism, &tree, |side| side == row.support || plant.bears(side));
-            let planned = row.zmp_planned.filter(|_| row.is_off_swaps()).map(|zmp| support.margin(foot.to_world(zmp)));
+            let planned =
+                row.zmp_planned.filter(|_| row.is_off_support_changes()).map(|zmp| support.margin(foot.to_world(zmp)));
             Some(Margin {
                 time: row.time,
                 half_step: row.half_step,
-                is_off_swaps: row.is_off_swaps(),
+                is_off_support_changes: row.is_off_support_changes(),
                 measured: row.margin,
                 planned,
             })
@@ -73,7 +74,7 @@ impl Margins {
     /// The least margin of each half-step as a step curve (mm).
     fn least(&self, which: impl Fn(&Margin) -> Option<f64>) -> Vec<Point> {
         let steps = self.0.chunk_by(|before, after| before.half_step == after.half_step).flat_map(|half_step| {
-            let within = half_step.iter().filter(|margin| margin.is_off_swaps);
+            let within = half_step.iter().filter(|margin| margin.is_off_support_changes);
             let least = within.filter_map(&which).min_by(f64::total_cmp).map_or(f64::NAN, |margin| margin * 1e3);
             let ends = [&half_step[0], &half_step[half_step.len() - 1]];
             ends.map(|end| [end.time, least])
@@ -97,7 +98,7 @@ mod tests {
         let dip = &mut log.controller[8];
         (dip.zmp_planned, dip.margin) = (Some(Vector2::new(0.02, 0.05)), Some(-0.02));
         let margins = Margins::of(&log, &mechanism);
-        for margin in margins.0.iter().filter(|margin| margin.is_off_swaps) {
+        for margin in margins.0.iter().filter(|margin| margin.is_off_support_changes) {
             let expected = if margin.time == log.controller[8].time { -0.01 } else { 0.01 };
             assert!((margin.planned.unwrap() - expected).abs() < 1e-12, "{:?} at {}", margin.planned, margin.time);
         }

@@ -8,9 +8,9 @@ use super::thinning::outlined;
 use crate::run_log::{ControllerRow, RunLog};
 
 /// Line at a support change.
-const SWAP: Pen = Pen::solid("#C9CBDD", 0.8);
+const SUPPORT_CHANGE: Pen = Pen::solid("#C9CBDD", 0.8);
 /// More support changes than this would cover everything, and are not marked.
-const SWAPS_MAX: usize = 120;
+const SUPPORT_CHANGES_MAX: usize = 120;
 /// Share of the values that [`TimePanel::usual`] leaves out at each end of its range: at every support change the
 /// zero-moment point comes from the other foot, far outside the support sole, and would flatten everything else.
 const LEFT_OUT: f64 = 0.03;
@@ -84,7 +84,7 @@ impl TimePanel {
     }
 
     /// Finishes the panel: bands, then support changes, curves over them, and the fall over all.
-    fn finish(mut self, swaps: &[f64], fall: &FallMarks, height: f64) -> Panel {
+    fn finish(mut self, support_changes: &[f64], fall: &FallMarks, height: f64) -> Panel {
         // An empty run has no values.
         let (least, greatest) = if self.range.0 < self.range.1 { self.range } else { (0.0, 1.0) };
         let pad = 0.08 * (greatest - least);
@@ -92,8 +92,8 @@ impl TimePanel {
         for (corners, pen) in self.bands {
             self.chart.polygon(&corners, pen, 0.2);
         }
-        for &swap in swaps {
-            self.chart.line([[swap, bottom], [swap, top]], SWAP);
+        for &support_change in support_changes {
+            self.chart.line([[support_change, bottom], [support_change, top]], SUPPORT_CHANGE);
         }
         for (curve, pen) in self.curves {
             self.chart.line(curve, pen);
@@ -113,16 +113,18 @@ pub(super) fn picture(
     panels: Vec<TimePanel>,
 ) -> String {
     let fall = FallMarks::of(log, mechanism);
-    let swaps = log.half_steps().skip(1).map(|half_step| half_step[0].time);
-    let mut swaps: Vec<f64> = swaps.filter(|swap| (from..to).contains(swap)).collect();
-    if swaps.len() > SWAPS_MAX {
-        swaps.clear();
+    let support_changes = log.half_steps().skip(1).map(|half_step| half_step[0].time);
+    let mut support_changes: Vec<f64> =
+        support_changes.filter(|support_change| (from..to).contains(support_change)).collect();
+    if support_changes.len() > SUPPORT_CHANGES_MAX {
+        support_changes.clear();
     }
-    let mut panels: Vec<Panel> = panels.into_iter().map(|panel| panel.finish(&swaps, &fall, height)).collect();
+    let mut panels: Vec<Panel> =
+        panels.into_iter().map(|panel| panel.finish(&support_changes, &fall, height)).collect();
     if let Some(Panel { chart, .. }) = panels.last_mut() {
         chart.x_label = fall.axis_label("time [s]");
-        if !swaps.is_empty() {
-            chart.key_line("swap of feet", SWAP);
+        if !support_changes.is_empty() {
+            chart.key_line("support change", SUPPORT_CHANGE);
         }
         fall.key_over_time(chart);
     }

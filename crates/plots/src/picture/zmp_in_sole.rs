@@ -31,7 +31,7 @@ pub fn zmp_in_sole(log: &RunLog, mechanism: &Mechanism) -> String {
     left.key_area("left sole", LEFT);
     left.key_area("right sole", RIGHT);
     left.key_line("ZMP of the ground", GROUND_PEN);
-    left.key_line("ZMP planned, off the swaps", PLANNED_PEN);
+    left.key_line("ZMP planned, off support changes", PLANNED_PEN);
     let title = "Zero-moment point in the sole that bears alone, all half-steps";
     maps(title, [left, right].map(|chart| Map { chart, scale: SCALE }).into())
 }
@@ -47,7 +47,7 @@ fn chart(log: &RunLog, mechanism: &Mechanism, side: Side) -> Chart {
         let (mut planned, mut ground): (Vec<Point>, Vec<Point>) = Default::default();
         for row in thinned(half_step, between, |row| row.time) {
             let Some(plant) = log.plant_at(row.time).filter(|plant| plant.bears_alone(side)) else { continue };
-            if row.is_off_swaps() {
+            if row.is_off_support_changes() {
                 planned.extend(row.zmp_planned.map(|zmp| [zmp.x, zmp.y]));
             }
             let to_sole = plant.footprint(mechanism, &tree, side).sole_to_world.inverse();

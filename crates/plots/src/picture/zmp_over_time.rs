@@ -17,7 +17,7 @@ pub fn zmp_over_time(log: &RunLog, mechanism: &Mechanism) -> String {
     let edge = Pen::dashed(EDGE, 1.2);
     let (planned, measured) = (Pen::solid(PLANNED, 2.0), Pen::solid(ZMP, 0.8));
 
-    let on_sole = |row: &ControllerRow| row.zmp_planned.filter(|_| row.is_off_swaps());
+    let on_sole = |row: &ControllerRow| row.zmp_planned.filter(|_| row.is_off_support_changes());
     let mut zmp_x = TimePanel::usual("ZMP x [m]", &[-sole.behind, sole.ahead]);
     zmp_x.draw_of("planned, off the swaps", planned, rows, |row| on_sole(row).map(|zmp| zmp.x));
     zmp_x.draw_of("measured", measured, rows, |row| row.zmp_measured.map(|zmp| zmp.x));

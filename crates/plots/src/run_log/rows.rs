@@ -106,7 +106,7 @@ pub struct ControllerRow {
 
 impl ControllerRow {
     /// Whether the planned zero-moment point is in the support sole: near a support change it moves from foot to foot.
-    pub fn is_off_swaps(&self) -> bool {
+    pub fn is_off_support_changes(&self) -> bool {
         (0.05..0.95).contains(&self.progress)
     }
 }

@@ -1,9 +1,10 @@
 //! The messages, one per file: `#[repr(C)]`, fixed size, no padding, no bytes that could be invalid.
 //!
-//! A message is what lies in shared memory: anyone can have written it, so it may be nonsense. The crate `interface` has
-//! the value that it carries, without the suffix ([`SetpointMessage`] and [`Setpoint`](interface::Setpoint)): `checked()`
-//! gives that value or says why it cannot, `new` or `From` write the message. Neither allocates nor panics. A measurement
-//! is not checked here: the controller validates it, so that a faulty sensor becomes a fault in its report.
+//! A message is what lies in shared memory: anyone can have written it, so it may be nonsense. The crate `interface`
+//! has the value that it carries, without the suffix ([`SetpointMessage`] and [`Setpoint`](interface::Setpoint)):
+//! `checked()` gives that value or says why it cannot, `new` or `From` write the message. Neither allocates nor panics.
+//! A measurement is not checked here: the controller validates it, so that a faulty sensor becomes a fault in its
+//! report.
 //!
 //! Any change of a layout gets a new `.vN` in the type name **and** a new [`PROTOCOL`](crate::PROTOCOL).
 

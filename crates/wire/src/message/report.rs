@@ -38,8 +38,8 @@ pub struct ReportMessage {
     pub margin: f64,
     /// Feedback angles added at the support ankle: roll, pitch (rad).
     pub lean: [f64; 2],
-    /// What the plan adds to the plain sum of the modifications: support ankle roll and pitch, waist roll and pitch (rad);
-    /// NaN when it is not known.
+    /// What the plan adds to the plain sum of the modifications: support ankle roll and pitch, waist roll and pitch
+    /// (rad); NaN when it is not known.
     pub added: [f64; 4],
     /// Measured centre of mass in the support foot's sole frame, made level (m); NaN when it is not known.
     pub com_in_support: [f64; 3],

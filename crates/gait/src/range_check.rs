@@ -8,7 +8,7 @@ use crate::Limits;
 
 /// What became of a requested change of gait parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Admission {
+pub struct RangeCheck {
     /// Granted as requested, in part, or not at all.
     pub verdict: Verdict,
     /// Why it was not granted as requested: the first parameter that was not, in the order turn, speed, extension.

@@ -18,13 +18,13 @@ enum Pending {
 
 /// Admission control.
 #[derive(Clone, Debug)]
-pub(crate) struct Admission {
+pub(crate) struct AdmissionControl {
     pending: Pending,
     /// Waits for the next tick.
     reply: Option<Reply>,
 }
 
-impl Admission {
+impl AdmissionControl {
     /// No request yet; jobs are evaluated with `job`.
     pub(crate) fn new(job: AdmissionJob) -> Self {
         Self { pending: Pending::Idle(Box::new(job)), reply: None }
@@ -96,8 +96,8 @@ impl Decision {
     }
 
     /// The decision on a change that needs no simulation.
-    pub(crate) fn at_once(admission: &gait::Admission) -> Self {
-        let gait::Admission { verdict, objection, granted, effect_half_step } = *admission;
+    pub(crate) fn at_once(admission: &gait::RangeCheck) -> Self {
+        let gait::RangeCheck { verdict, objection, granted, effect_half_step } = *admission;
         Self { verdict, granted, effect_half_step, objection, predicted_margin: None }
     }
 
