@@ -1,6 +1,6 @@
 //! A Python script asks the controller and hears its reports; another one is a complete plant.
 //!
-//! Needs Python: `cargo test -p halfstep-tests -- --ignored`.
+//! Needs Python: `cargo test --workspace --tests -- --ignored`.
 
 use std::process::{Command, Output};
 
@@ -21,7 +21,7 @@ fn text(bytes: &[u8]) -> String {
 }
 
 #[test]
-#[ignore = "needs Python with MuJoCo: see tools/mujoco_plant"]
+#[ignore = "needs Python packages: see docs/contributing.md"]
 fn a_python_script_streams_commands() {
     let _alone = alone();
     let python = python();
@@ -40,7 +40,7 @@ fn a_python_script_streams_commands() {
 
 /// A program that keeps command and then says nothing more: the walk comes to a stand. However long that takes here.
 #[test]
-#[ignore = "needs Python with MuJoCo: see tools/mujoco_plant"]
+#[ignore = "needs Python packages: see docs/contributing.md"]
 fn the_walk_stops_when_a_python_program_falls_silent() {
     let _alone = alone();
     let mut python = python();
@@ -67,7 +67,7 @@ print('stands')
 }
 
 #[test]
-#[ignore = "needs Python with MuJoCo: see tools/mujoco_plant"]
+#[ignore = "needs Python packages: see docs/contributing.md"]
 fn a_python_script_is_a_plant() {
     let _alone = alone();
     let python = python();
@@ -81,7 +81,7 @@ fn a_python_script_is_a_plant() {
 }
 
 #[test]
-#[ignore = "needs Python with MuJoCo: see tools/mujoco_plant"]
+#[ignore = "needs Python packages: see docs/contributing.md"]
 fn a_python_plant_for_another_robot_is_refused() {
     let _alone = alone();
     let mut python = python();

@@ -1,7 +1,7 @@
 //! MuJoCo loads the exported robot unchanged and agrees with our dynamics to 1e-9: mass, centre of mass, torques,
 //! ground wrench and mass matrix over random motions.
 //!
-//! Needs Python: `cargo test -p halfstep-tests -- --ignored`.
+//! Needs Python: `cargo test --workspace --tests -- --ignored`.
 
 use std::io::Write;
 use std::process::Stdio;
@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 const STATES: usize = 20;
 
 #[test]
-#[ignore = "needs Python with MuJoCo: see tools/mujoco_plant"]
+#[ignore = "needs Python packages: see docs/contributing.md"]
 fn mujoco_agrees_with_our_dynamics() {
     let mut python = python();
     let mechanism = mechanism();
@@ -56,7 +56,7 @@ fn mujoco_agrees_with_our_dynamics() {
 
 /// The URDF loads unchanged, too: a fixed right foot and 18 joints.
 #[test]
-#[ignore = "needs Python with MuJoCo: see tools/mujoco_plant"]
+#[ignore = "needs Python packages: see docs/contributing.md"]
 fn mujoco_loads_the_exported_urdf() {
     let mut python = python();
     let program = "import sys, mujoco; print(mujoco.MjModel.from_xml_string(sys.stdin.read()).nv)";

@@ -1,13 +1,13 @@
 //! A recording opens in PyPI's `mcap`: all messages, to the bit, and without any of our code.
 //!
-//! Needs Python: `cargo test -p halfstep-tests -- --ignored`.
+//! Needs Python: `cargo test --workspace --tests -- --ignored`.
 
 use halfstep_tests::command_line::CommandLine;
 use halfstep_tests::{python, repository};
 use record::{Recording, RunEvent};
 
 #[test]
-#[ignore = "needs Python with MuJoCo: see tools/mujoco_plant"]
+#[ignore = "needs Python packages: see docs/contributing.md"]
 fn python_reads_every_message_of_a_recording() {
     let mut python = python();
     let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));

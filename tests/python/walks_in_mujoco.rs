@@ -1,13 +1,13 @@
 //! The robot walks in MuJoCo, with the parameters that it walks with in our own plant, and the same walk is the same to
 //! the byte.
 //!
-//! Needs Python: `cargo test -p halfstep-tests -- --ignored`.
+//! Needs Python: `cargo test --workspace --tests -- --ignored`.
 
 use halfstep_tests::command_line::CommandLine;
 use serde_json::Value;
 
 #[test]
-#[ignore = "needs Python with MuJoCo: see tools/mujoco_plant"]
+#[ignore = "needs Python packages: see docs/contributing.md"]
 fn walks_in_mujoco_the_same_each_time() {
     let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
     let walk = |plant: &str, folder: &str| -> Value {

@@ -6,7 +6,7 @@ use node::engine;
 
 /// The Python of `tools/mujoco_plant/requirements.txt`, which is installed on first use.
 ///
-/// Only for tests that are ignored by default: `cargo test -p halfstep-tests -- --ignored` runs them.
+/// Only for tests that are ignored by default: `cargo test --workspace --tests -- --ignored` runs them.
 ///
 /// # Panics
 /// If it cannot be installed, for lack of Python or of a package registry.

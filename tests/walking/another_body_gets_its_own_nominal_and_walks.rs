@@ -16,7 +16,7 @@ use synthesis::{LegPattern, SynthesisParameters, synthesize};
 
 /// The URDF is fetched from PyPI.
 #[test]
-#[ignore = "needs Python with MuJoCo: see tools/mujoco_plant"]
+#[ignore = "needs Python packages: see docs/contributing.md"]
 fn a_public_humanoid_gets_its_own_nominal_and_walks() {
     let mut python = python();
     let folder = repository().join("examples/gr1t1");

@@ -142,8 +142,8 @@ fn sixteen_mistakes_in_a_mechanism_file_are_reported_in_sixteen_lines() {
             "joint.left_elbow",
             "number = 20",
             "number = 20\ncolour = \"red\"",
-            "1: joint.left_elbow.colour = \"red\": unknown key; expected one of number, parent, axis, origin_m, mass_kg, \
-             com_m, inertia_kg_m2, range_deg, rate_max_deg_per_s, motor",
+            "1: joint.left_elbow.colour = \"red\": unknown key; expected one of number, parent, axis, origin_m, \
+             mass_kg, com_m, inertia_kg_m2, range_deg, rate_max_deg_per_s, motor",
         ),
     ]);
 }
