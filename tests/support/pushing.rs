@@ -14,31 +14,31 @@ pub const WALKS_ON: f64 = 6.0;
 /// Whither the trunk is pushed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// The way the bearing foot points.
+    /// The way the support foot points.
     Forward,
     /// Against it.
     Back,
-    /// Outward over the bearing foot.
-    ToBearing,
+    /// Outward over the support foot.
+    ToSupport,
     /// Towards the swinging foot.
     ToSwing,
 }
 
 impl Direction {
     /// All four.
-    pub const ALL: [Direction; 4] = [Direction::Forward, Direction::Back, Direction::ToBearing, Direction::ToSwing];
+    pub const ALL: [Direction; 4] = [Direction::Forward, Direction::Back, Direction::ToSupport, Direction::ToSwing];
 
     /// In world axes, for a robot that bears on `support`.
     fn in_world(self, walking: &Walking, support: Side) -> Vector3<f64> {
         let ahead = walking.plant.truth().soles[support.index()].rotation * Vector3::x();
         let ahead = Vector3::new(ahead.x, ahead.y, 0.0).normalize();
         let left = Vector3::z().cross(&ahead);
-        let to_bearing = if support == Side::Right { -left } else { left };
+        let to_support = if support == Side::Right { -left } else { left };
         match self {
             Direction::Forward => ahead,
             Direction::Back => -ahead,
-            Direction::ToBearing => to_bearing,
-            Direction::ToSwing => -to_bearing,
+            Direction::ToSupport => to_support,
+            Direction::ToSwing => -to_support,
         }
     }
 }

@@ -58,14 +58,14 @@ pub(crate) fn survey(options: &Options) -> bool {
     let demanded = directions.map(demanded);
     rows.push(std::iter::once("demanded".into()).chain(demanded.map(|impulse| format!("{impulse:.2}"))).collect());
     println!("N·s over {PUSH_DURATION} s at the trunk, survived if it walks {WALKS_ON} s later:");
-    table::print(&["progress", "forward", "back", "to bearing side", "to swing side"], &rows);
+    table::print(&["progress", "forward", "back", "to support side", "to swing side"], &rows);
     std::iter::zip(least, demanded).all(|(least, demanded)| least >= demanded)
 }
 
 fn demanded(direction: Direction) -> f64 {
     match direction {
         Direction::Forward | Direction::Back => DEMANDED[0],
-        Direction::ToBearing | Direction::ToSwing => DEMANDED[1],
+        Direction::ToSupport | Direction::ToSwing => DEMANDED[1],
     }
 }
 

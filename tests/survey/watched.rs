@@ -20,7 +20,7 @@ pub(crate) struct Watched {
     pub report: Tick,
     /// Least measured margin between support changes while walking (m).
     pub least_margin: f64,
-    /// Largest feedback angle of the bearing ankle (rad).
+    /// Largest feedback angle of the support ankle (rad).
     pub largest_lean: f64,
     /// How it ended, if it did.
     pub fall: Option<Fall>,

@@ -1,5 +1,5 @@
 //! What the preview asks of the joints is smooth, lands the swinging sole softly, and keeps the ZMP of the whole body
-//! in the bearing sole, for random commands from all that is granted; the plain sum of the modifications does not.
+//! in the support sole, for random commands from all that is granted; the plain sum of the modifications does not.
 //!
 //! Method: no plant, no feedback; inverse dynamics of what is asked, between the support changes (from a tenth of the
 //! half-step to nine tenths: at a support change the point goes from foot to foot).

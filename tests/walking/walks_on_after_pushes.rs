@@ -16,7 +16,7 @@ fn walks_on_after_pushes_from_any_side_at_any_phase() {
         for direction in Direction::ALL {
             let impulse = match direction {
                 Direction::Forward | Direction::Back => IMPULSES[0],
-                Direction::ToBearing | Direction::ToSwing => IMPULSES[1],
+                Direction::ToSupport | Direction::ToSwing => IMPULSES[1],
             };
             assert!(survives(&walking, direction, impulse), "{impulse} N·s {direction:?} at {progress:.2}");
         }

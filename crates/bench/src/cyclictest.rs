@@ -39,8 +39,8 @@ pub fn run(core: usize, priority: u8, period: Duration, periods: u64, series: &m
 }
 
 /// Latencies (µs) with their counts, from cyclictest's output.
-fn histogram(told: &str) -> impl Iterator<Item = (u64, u64)> {
-    told.lines().filter_map(|line| {
+fn histogram(output: &str) -> impl Iterator<Item = (u64, u64)> {
+    output.lines().filter_map(|line| {
         let mut words = line.split_whitespace();
         let pair = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
         words.next().is_none().then_some(pair)
@@ -53,7 +53,7 @@ mod tests {
 
     #[test]
     fn histogram_of_cyclictest_is_parsed() {
-        let told = "# Histogram\n000003 000002\n000004 000001\n# Total: 000000003\n# Min Latencies: 00003\n";
-        assert_eq!(histogram(told).collect::<Vec<_>>(), [(3, 2), (4, 1)]);
+        let output = "# Histogram\n000003 000002\n000004 000001\n# Total: 000000003\n# Min Latencies: 00003\n";
+        assert_eq!(histogram(output).collect::<Vec<_>>(), [(3, 2), (4, 1)]);
     }
 }

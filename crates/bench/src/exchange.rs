@@ -138,8 +138,8 @@ pub fn answer(instance: &Instance, scheduling: &Scheduling) -> Result<(), BenchE
 /// The other process, which answers.
 struct Other {
     child: Child,
-    ask: ChildStdin,
-    told: BufReader<ChildStdout>,
+    stdin: ChildStdin,
+    stdout: BufReader<ChildStdout>,
 }
 
 impl Other {
@@ -148,14 +148,14 @@ impl Other {
         let mut command = command().map_err(failed)?;
         let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().map_err(failed)?;
         let pipes = child.stdin.take().zip(child.stdout.take());
-        let (ask, told) = pipes.ok_or_else(|| BenchError::new("starting the process that answers", "no pipe"))?;
-        Ok(Self { child, ask, told: BufReader::new(told) })
+        let (stdin, stdout) = pipes.ok_or_else(|| BenchError::new("starting the process that answers", "no pipe"))?;
+        Ok(Self { child, stdin, stdout: BufReader::new(stdout) })
     }
 
     fn turn_to(&mut self, way: &str) -> Result<(), BenchError> {
         let mut line = String::new();
-        let told = writeln!(self.ask, "{way}").and_then(|()| self.told.read_line(&mut line));
-        match told {
+        let result = writeln!(self.stdin, "{way}").and_then(|()| self.stdout.read_line(&mut line));
+        match result {
             Ok(length) if length > 0 => Ok(()),
             Ok(_) => Err(BenchError::new("the process that answers", "it has ended")),
             Err(error) => Err(BenchError::new("the process that answers", error)),

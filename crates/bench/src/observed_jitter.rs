@@ -124,8 +124,8 @@ fn one(
         over.store(true, Ordering::Relaxed);
         result
     })?;
-    let told = controller.wait_with_output().map_err(gone)?;
+    let output = controller.wait_with_output().map_err(gone)?;
     let summary: ControllerSummary =
-        serde_json::from_slice(&told.stdout).map_err(|error| BenchError::new("the controller's summary", error))?;
+        serde_json::from_slice(&output.stdout).map_err(|error| BenchError::new("the controller's summary", error))?;
     summary.timing.ok_or_else(|| BenchError::new("the controller's summary", "it kept no time"))
 }

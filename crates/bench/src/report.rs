@@ -111,13 +111,13 @@ impl fmt::Display for Micro {
 
 impl Serialize for BenchReport {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut told = serializer.serialize_struct("BenchReport", 5)?;
-        told.serialize_field("what", self.what)?;
-        told.serialize_field("machine", &self.machine)?;
-        told.serialize_field("series", &self.series.iter().map(SeriesInJson::from).collect::<Vec<_>>())?;
-        told.serialize_field("ratios", &self.ratios)?;
-        told.serialize_field("notes", &self.notes)?;
-        told.end()
+        let mut object = serializer.serialize_struct("BenchReport", 5)?;
+        object.serialize_field("what", self.what)?;
+        object.serialize_field("machine", &self.machine)?;
+        object.serialize_field("series", &self.series.iter().map(SeriesInJson::from).collect::<Vec<_>>())?;
+        object.serialize_field("ratios", &self.ratios)?;
+        object.serialize_field("notes", &self.notes)?;
+        object.end()
     }
 }
 

@@ -39,7 +39,7 @@ pub(crate) struct WalkSummary {
 impl fmt::Display for WalkSummary {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
         let Measures { half_steps, distance_m, heading_deg, min_margin_mm, falls, fall } = self.measures;
-        let margin = min_margin_mm.map_or("unknown".to_owned(), |margin| format!("{margin:.0} mm"));
+        let margin = min_margin_mm.map_or("unknown".to_owned(), |margin| format!("{:.0} mm", margin.round() + 0.0));
         let falls = match falls {
             0 => "no fall".to_owned(),
             1 => "1 fall".to_owned(),

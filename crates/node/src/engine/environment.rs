@@ -117,10 +117,10 @@ fn system_python() -> Result<String, EnvironmentError> {
     let wanted = format!(
         "MuJoCo needs Python {major}.{minor} or newer; set HALFSTEP_PYTHON to one, or walk with `--plant rust`"
     );
-    let asked = Command::new(&program).args(["-c", "import sys; print(*sys.version_info[:2])"]).output();
-    let told = asked.map_err(|error| EnvironmentError(format!("cannot run `{program}`: {error}. {wanted}")))?;
-    let told = String::from_utf8_lossy(&told.stdout).trim().to_owned();
-    let mut numbers = told.split(' ').map(|number| number.parse::<u32>().unwrap_or(0));
+    let output = Command::new(&program).args(["-c", "import sys; print(*sys.version_info[:2])"]).output();
+    let output = output.map_err(|error| EnvironmentError(format!("cannot run `{program}`: {error}. {wanted}")))?;
+    let printed = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+    let mut numbers = printed.split(' ').map(|number| number.parse::<u32>().unwrap_or(0));
     let version = (numbers.next().unwrap_or(0), numbers.next().unwrap_or(0));
     if version < PYTHON_MIN {
         let is = if version.0 == 0 { "no Python".to_owned() } else { format!("Python {}.{}", version.0, version.1) };

@@ -175,8 +175,8 @@ impl ExternalEngine {
             .map_err(|cause| EngineError::Start { program, cause })?;
         let (setpoints, states) = (child.stdin.take(), child.stdout.take().expect("a pipe was asked for"));
         let mut engine = Self { child, setpoints, states: BufReader::new(states), name: String::new() };
-        let told = serde_json::to_string(setup).map_err(|error| EngineError::Mismatch(error.to_string()))?;
-        engine.send(format!("{told}\n").as_bytes())?;
+        let line = serde_json::to_string(setup).map_err(|error| EngineError::Mismatch(error.to_string()))?;
+        engine.send(format!("{line}\n").as_bytes())?;
 
         let mut answer = String::new();
         engine.states.read_line(&mut answer).map_err(EngineError::Ended)?;

@@ -107,8 +107,8 @@ fn draw_soles(
     let rows = rows_between(log, shown);
     for side in Side::BOTH {
         let label = match side {
-            Side::Right => "right sole bears",
-            Side::Left => "left sole bears",
+            Side::Right => "right sole loaded",
+            Side::Left => "left sole loaded",
         };
         for stance in rows.chunk_by(|before, after| before.bears(side) == after.bears(side)) {
             let (first, last) = (&stance[0], &stance[stance.len() - 1]);

@@ -23,12 +23,12 @@ pub fn margin_over_time(log: &RunLog, mechanism: &Mechanism) -> String {
     let mut every = TimePanel::usual("margin [mm]", &ALWAYS);
     every.draw("ZMP planned, to the edge", planned, margins.over_time(|margin| margin.planned));
     every.draw("ZMP measured, to the edge", measured, margins.over_time(|margin| margin.measured));
-    every.level("edge of what bears", &[0.0], edge);
+    every.level("edge of the support polygon", &[0.0], edge);
 
     let mut least = TimePanel::new("least, off support changes [mm]", &ALWAYS);
     least.draw("ZMP planned, to the edge", planned, margins.least(|margin| margin.planned));
     least.draw("ZMP measured, to the edge", measured, margins.least(|margin| margin.measured));
-    least.level("edge of what bears", &[0.0], edge);
+    least.level("edge of the support polygon", &[0.0], edge);
 
     picture("Margin of the zero-moment point", log, mechanism, whole_run(log), HEIGHT, vec![every, least])
 }

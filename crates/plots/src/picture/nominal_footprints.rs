@@ -46,7 +46,7 @@ pub fn nominal_footprints(table: &NominalTable, mechanism: &Mechanism) -> String
     // The path stays in one spot: a ring shows where it is.
     chart.line(circle([0.0; 2], ZMP_RING), pen);
 
-    chart.key_area("right sole, bearing", RIGHT);
+    chart.key_area("right sole, support", RIGHT);
     chart.key_area("left sole, before and after", LEFT);
     chart.key_line("swing ankle", swing);
     chart.key_line("ZMP, inside the ring", pen);

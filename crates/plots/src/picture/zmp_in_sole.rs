@@ -32,7 +32,7 @@ pub fn zmp_in_sole(log: &RunLog, mechanism: &Mechanism) -> String {
     left.key_area("right sole", RIGHT);
     left.key_line("ZMP of the ground", GROUND_PEN);
     left.key_line("ZMP planned, off support changes", PLANNED_PEN);
-    let title = "Zero-moment point in the sole that bears alone, all half-steps";
+    let title = "Zero-moment point in the support sole, single support of all half-steps";
     maps(title, [left, right].map(|chart| Map { chart, scale: SCALE }).into())
 }
 

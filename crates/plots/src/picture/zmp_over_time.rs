@@ -37,5 +37,5 @@ pub fn zmp_over_time(log: &RunLog, mechanism: &Mechanism) -> String {
     speed.draw_of("speed now", Pen::solid(COM, 2.0), rows, |row| Some(row.speed));
 
     let panels = vec![zmp_x, zmp_y, angles, speed];
-    picture("ZMP in the bearing sole, and commands", log, mechanism, whole_run(log), HEIGHT, panels)
+    picture("ZMP in the support sole, and commands", log, mechanism, whole_run(log), HEIGHT, panels)
 }
