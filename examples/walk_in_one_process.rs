@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let turn = Request { gait: turn, ..Request::new(Source::Program) };
     let mut measurement = plant.measure();
     for period in 0..10_000 {
-        let step = driver.step(PERIOD, Some(&measurement), || (period == 3000).then_some(turn));
+        let step = driver.step(PERIOD, Some(&measurement), |_| (period == 3000).then_some(turn));
         if let Some(reply) = step.tick.reply {
             println!("{:.1} s: {} from half-step {}", plant.time(), reply.verdict, reply.effect_half_step);
         }

@@ -7,6 +7,7 @@ mod a_recording_holds_the_run;
 mod a_replay_gives_the_same_bits;
 mod a_second_controller_is_refused;
 mod a_silent_stream_stops_the_walk;
+mod a_stop_is_heard_through_any_flood;
 mod a_stream_changes_the_walk_while_it_runs;
 mod bad_configuration_is_refused_with_every_error;
 mod every_error_is_the_pinned_text;

@@ -44,7 +44,8 @@ pub struct Walking {
     pub driver: Driver<InlineWorker>,
     /// The simulated robot.
     pub plant: Plant,
-    measurement: Measurement,
+    /// The newest measurement.
+    pub measurement: Measurement,
     tick: u64,
     /// Requests that wait until those before are replied to.
     waiting: VecDeque<Request>,
@@ -107,7 +108,12 @@ impl Walking {
         step: impl FnOnce(&mut Plant, &Setpoint) -> Measurement,
     ) -> Tick {
         self.waiting.extend(request);
-        let tick = self.driver.step(PERIOD, Some(&self.measurement), || self.waiting.pop_front()).tick;
+        let step_of_driver = self.driver.step(PERIOD, Some(&self.measurement), |urgent_only| {
+            let is_due = |request: &Request| !urgent_only || request.is_urgent();
+            let at = self.waiting.iter().position(is_due)?;
+            self.waiting.remove(at)
+        });
+        let tick = step_of_driver.tick;
         self.tick += 1;
         self.measurement = step(&mut self.plant, &tick.setpoint);
         tick

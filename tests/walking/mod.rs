@@ -1,7 +1,10 @@
 //! Controller and plant together in one process.
 
 mod a_speed_request_takes_effect_at_once;
+mod a_stop_waits_for_nothing;
+mod a_tick_returns_for_every_period;
 mod a_walk_keeps_its_bits;
+mod admission_from_a_stand_is_that_of_the_walk;
 #[cfg(feature = "command-line")]
 mod another_body_gets_its_own_nominal_and_walks;
 mod bad_measurements_never_reach_a_joint;

@@ -229,11 +229,11 @@ type Ways<Out, In> = [Box<dyn Way<Out, In>>; 4];
 
 /// The ends of the process that begins, in the order of [`WAYS`].
 fn asking_ways(instance: &Instance) -> Result<Ways<MeasurementMessage, SetpointMessage>, BenchError> {
-    let services = Services::new(instance.name(), true)?;
+    let end = PlantPorts::connect(instance, MECHANISM).map_err(|error| BenchError::new("our services", error))?;
+    let services = Services::new(instance, true)?;
     let ring = |error| BenchError::new("a ring", error);
     let out = SharedRing::make(&ring_file(instance, "measurement")).map_err(ring)?;
     let into = SharedRing::make(&ring_file(instance, "setpoint")).map_err(ring)?;
-    let end = PlantPorts::connect(instance, MECHANISM).map_err(|error| BenchError::new("our services", error))?;
     Ok([
         Box::new(end),
         Box::new(services.blackboards("board/measurement", "board/setpoint")?),
@@ -244,11 +244,11 @@ fn asking_ways(instance: &Instance) -> Result<Ways<MeasurementMessage, SetpointM
 
 /// The ends of the process that answers, in the order of [`WAYS`].
 fn answering_ways(instance: &Instance) -> Result<Ways<SetpointMessage, MeasurementMessage>, BenchError> {
-    let services = Services::new(instance.name(), false)?;
+    let end = ControllerPorts::connect(instance, MECHANISM).map_err(|error| BenchError::new("our services", error))?;
+    let services = Services::new(instance, false)?;
     let ring = |error| BenchError::new("a ring", error);
     let out = SharedRing::open(&ring_file(instance, "setpoint")).map_err(ring)?;
     let into = SharedRing::open(&ring_file(instance, "measurement")).map_err(ring)?;
-    let end = ControllerPorts::connect(instance, MECHANISM).map_err(|error| BenchError::new("our services", error))?;
     Ok([
         Box::new(end),
         Box::new(services.blackboards("board/setpoint", "board/measurement")?),
@@ -258,7 +258,7 @@ fn answering_ways(instance: &Instance) -> Result<Ways<SetpointMessage, Measureme
 }
 
 fn ring_file(instance: &Instance, name: &str) -> PathBuf {
-    PathBuf::from(format!("/dev/shm/halfstep.{}.ring-{name}", instance.name()))
+    PathBuf::from(format!("/dev/shm/{}ring-{name}", instance.prefix()))
 }
 
 /// A ring in each direction.

@@ -9,7 +9,7 @@ use iceoryx2::port::writer::{EntryHandleMut, Writer};
 use iceoryx2::prelude::{
     Config, FileName, Node, NodeBuilder, Path, SemanticString, ServiceName, SignalHandlingMode, ZeroCopySend, ipc,
 };
-use wire::{InstanceName, Latest};
+use wire::{Instance, Latest};
 
 use crate::BenchError;
 
@@ -43,12 +43,11 @@ fn failed(cause: impl Debug) -> BenchError {
 }
 
 impl Services {
-    pub(crate) fn new(instance: &InstanceName, makes: bool) -> Result<Self, BenchError> {
-        let root = std::env::temp_dir().join(format!("halfstep-{}", rustix::process::getuid().as_raw()));
-        let root = root.join(instance.as_str());
+    pub(crate) fn new(instance: &Instance, makes: bool) -> Result<Self, BenchError> {
         let mut config = Config::default();
-        config.global.prefix = FileName::new(format!("halfstep.{instance}.").as_bytes()).map_err(failed)?;
-        config.global.set_root_path(&Path::new(root.as_os_str().as_encoded_bytes()).map_err(failed)?);
+        config.global.prefix = FileName::new(instance.prefix().as_bytes()).map_err(failed)?;
+        let root = instance.folder().as_os_str().as_encoded_bytes();
+        config.global.set_root_path(&Path::new(root).map_err(failed)?);
         let node = NodeBuilder::new().config(&config).signal_handling_mode(SignalHandlingMode::Disabled);
         Ok(Self { node: node.create().map_err(failed)?, makes })
     }

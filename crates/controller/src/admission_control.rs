@@ -1,6 +1,6 @@
 //! Admission control: one request at a time, from its submission to its reply.
 
-use interface::{Command, Intent, Reason, Reply, Request, Verdict};
+use interface::{Command, Intent, Reason, Reply, Request, Source, Verdict};
 use pattern::PatternGenerator;
 
 use crate::admission_job::{AdmissionJob, Decision};
@@ -14,25 +14,41 @@ enum Pending {
     Ready(Box<AdmissionJob>),
     /// The job was taken and has not come back.
     InProgress,
+    /// The job was taken; its result no longer matters. Another request may wait for the job.
+    Cancelled(Option<Request>),
 }
 
 /// Admission control.
 #[derive(Clone, Debug)]
 pub(crate) struct AdmissionControl {
     pending: Pending,
+    /// The source of the request under evaluation.
+    source: Option<Source>,
     /// Waits for the next tick.
     reply: Option<Reply>,
+    /// The reply to the request whose evaluation was cancelled; waits for the next tick.
+    superseded: Option<Reply>,
 }
 
 impl AdmissionControl {
     /// No request yet; jobs are evaluated with `job`.
     pub(crate) fn new(job: AdmissionJob) -> Self {
-        Self { pending: Pending::Idle(Box::new(job)), reply: None }
+        Self { pending: Pending::Idle(Box::new(job)), source: None, reply: None, superseded: None }
     }
 
-    /// Whether a request can be submitted: the one before has been replied to.
+    /// Whether any request can be submitted: the one before has been replied to.
     pub(crate) fn is_idle(&self) -> bool {
         matches!(self.pending, Pending::Idle(_)) && self.reply.is_none()
+    }
+
+    /// Whether there is a reply for the next tick.
+    pub(crate) fn has_reply(&self) -> bool {
+        self.reply.is_some()
+    }
+
+    /// The source that waits for the reply to its request, if any.
+    pub(crate) fn waiting(&self) -> Option<Source> {
+        self.source
     }
 
     /// Replies with the next tick.
@@ -45,19 +61,45 @@ impl AdmissionControl {
         self.reply.take()
     }
 
-    /// Opens a job for a request.
+    /// The reply of this tick to a cancelled request, if there is one.
+    pub(crate) fn take_superseded(&mut self) -> Option<Reply> {
+        self.superseded.take()
+    }
+
+    /// Opens a job for a request, at once or when a cancelled one has come back.
     pub(crate) fn open(&mut self, generator: &PatternGenerator, request: &Request) {
+        self.source = Some(request.source);
         self.pending = match std::mem::replace(&mut self.pending, Pending::InProgress) {
             Pending::Idle(mut job) => {
                 job.open(generator, request);
                 Pending::Ready(job)
             }
-            busy => busy,
+            Pending::Cancelled(_) => Pending::Cancelled(Some(*request)),
+            busy @ (Pending::Ready(_) | Pending::InProgress) => busy,
         };
     }
 
-    /// The job that is to be evaluated, if there is one.
+    /// Cancels the evaluation of a request, if one is under evaluation, and replies `refusal` to it.
+    pub(crate) fn cancel(&mut self, refusal: Reply) {
+        if self.source.take().is_some() {
+            self.superseded = Some(refusal);
+        }
+        self.pending = match std::mem::replace(&mut self.pending, Pending::InProgress) {
+            Pending::Idle(job) | Pending::Ready(job) => Pending::Idle(job),
+            Pending::InProgress | Pending::Cancelled(_) => Pending::Cancelled(None),
+        };
+    }
+
+    /// Whether the job that was taken no longer matters.
+    pub(crate) fn is_cancelled(&self) -> bool {
+        matches!(self.pending, Pending::Cancelled(_))
+    }
+
+    /// The job that is to be evaluated, if there is one. It waits while a reply does, so that no tick has two.
     pub(crate) fn take_job(&mut self) -> Option<Box<AdmissionJob>> {
+        if self.has_reply() {
+            return None;
+        }
         match std::mem::replace(&mut self.pending, Pending::InProgress) {
             Pending::Ready(job) => Some(job),
             other => {
@@ -67,9 +109,18 @@ impl AdmissionControl {
         }
     }
 
-    /// The job is done with.
-    pub(crate) fn finish(&mut self, job: Box<AdmissionJob>) {
-        self.pending = Pending::Idle(job);
+    /// The job is done with. Opens it again for the request that waits for it, if one does.
+    pub(crate) fn finish(&mut self, mut job: Box<AdmissionJob>, generator: Option<&PatternGenerator>) {
+        self.pending = match (&self.pending, generator) {
+            (Pending::Cancelled(Some(next)), Some(generator)) => {
+                job.open(generator, next);
+                Pending::Ready(job)
+            }
+            _ => {
+                self.source = None;
+                Pending::Idle(job)
+            }
+        };
     }
 
     /// The plan has changed meanwhile: the job is to be evaluated again.

@@ -8,15 +8,16 @@ use pattern::{Feasibility, FeasibilityCheck, Gait, Limit, LimitViolation, Patter
 
 use crate::pattern::goal_of;
 
-/// Knots that a request is simulated ahead: 2.8 s, within which turn, extension and speed have all taken effect.
-const KNOTS: usize = 280;
+/// Half-steps that are simulated with all of the request in effect: one of each foot.
+const HALF_STEPS: u64 = 2;
+/// Least and most knots that a request is simulated ahead: 2.8 s, in which a walk at nominal speed makes these
+/// half-steps, and 10 s.
+const KNOTS: std::ops::Range<usize> = 280..1000;
 /// Bisections between the command in force and the requested one in search of what can be granted.
 const BISECTIONS: usize = 4;
 /// A request that would violate a limit this shortly before a support change (s) is evaluated again after it: by then
 /// the centre of mass has moved over the next foot.
 const LATE: f64 = 0.2;
-/// Largest loss of margin against walking on unchanged (m), where walking on violates a limit itself.
-const MARGIN_LOSS_MAX: f64 = 0.002;
 
 /// A request under evaluation.
 #[derive(Clone, Debug)]
@@ -110,31 +111,27 @@ impl AdmissionJob {
         if requested.verdict == Verdict::Refused || feasibility.violation.is_none() || is_stop {
             return decided(requested, &feasibility);
         }
-        let (_, unchanged) = self.simulate(&in_force.into());
-        let is_permitted = |feasibility: &Feasibility| match (feasibility.violation, unchanged.violation) {
-            (None, _) => true,
-            (Some(_), None) => false,
-            (Some(violation), Some(before)) => {
-                let both_margins = violation.limit == Limit::Margin && before.limit == Limit::Margin;
-                both_margins && feasibility.margin > unchanged.margin - MARGIN_LOSS_MAX
-                    || violation.limit == before.limit && !both_margins
-            }
-        };
-        if is_permitted(&feasibility) {
+        let (mut base, mut unchanged) = (in_force, self.simulate(&in_force.into()).1);
+        if unchanged.violation.is_some() && !self.generator.gait_state().is_stepping() {
+            // Nothing is walked that could be gone on with.
+            base = Command::NOMINAL;
+            unchanged = self.simulate(&base.into()).1;
+        }
+        if feasibility.is_no_worse_than(&unchanged) {
             return decided(requested, &feasibility);
         }
         let (mut best, mut best_share) = (unchanged, 0.0);
         let mut step = 0.5;
         for _ in 0..BISECTIONS {
             let share = best_share + step;
-            let (_, feasibility) = self.simulate(&between(&in_force, &requested.granted, share).into());
-            if is_permitted(&feasibility) {
+            let (_, feasibility) = self.simulate(&between(&base, &requested.granted, share).into());
+            if feasibility.is_no_worse_than(&unchanged) {
                 (best, best_share) = (feasibility, share);
             }
             step /= 2.0;
         }
         let verdict = if best_share > 0.0 { Verdict::Limited } else { Verdict::Refused };
-        let granted = between(&in_force, &requested.granted, best_share);
+        let granted = between(&base, &requested.granted, best_share);
         let objection = feasibility.violation.as_ref().map(objection).or(requested.objection);
         decided(Decision { verdict, granted, objection, ..requested }, &best)
     }
@@ -146,11 +143,18 @@ impl AdmissionJob {
         self.generator.gait_state().is_stepping() && left < late.min(0.5)
     }
 
-    /// Simulates the coming knots with a change.
+    /// Simulates the coming knots with a change, until a full step was made with it. In a stand gait parameters are
+    /// simulated as if the walk began: they stay in force until it does.
     fn simulate(&mut self, change: &GaitChange) -> (Decision, Feasibility) {
         self.trial.clone_from(&self.generator);
-        let decision = apply(&mut self.trial, change, self.intent);
-        (decision, self.check.play(&mut self.trial, KNOTS))
+        let is_for_later = self.intent.is_none() && !self.generator.gait_state().is_stepping();
+        let decision = apply(&mut self.trial, change, if is_for_later { Some(Intent::Walk) } else { self.intent });
+        let end = decision.effect_half_step + HALF_STEPS;
+        let goes_on = |trial: &PatternGenerator, knots: usize| {
+            let is_seen = trial.half_step().index >= end || trial.gait_state().is_standing();
+            knots < if is_seen { KNOTS.start } else { KNOTS.end }
+        };
+        (decision, self.check.play(&mut self.trial, goes_on))
     }
 }
 

@@ -4,13 +4,13 @@
 //! of the source, an empty heartbeat included, restarts the timeout. A source that sends nothing for longer loses its
 //! authority and its requests are obsolete: the robot is to stop. The next source that sends takes authority again.
 //!
-//! While a source has authority, sources of lower priority are refused, except that a stop is granted to everyone.
+//! While a source has authority, sources of lower priority are refused. The controller grants a stop to them, too.
 //! Sources of higher priority are granted what they request; with a stream they take authority over.
 //!
 //! A *latched* request holds no authority beyond its instant. From the source in control it ends the stream: what it
 //! requested stays in effect.
 
-use interface::{ControlAuthority, Lifetime, Request, Source};
+use interface::{COMMAND_TIMEOUT_MAX, ControlAuthority, Lifetime, Request, Source};
 
 /// Command timeout and priorities of the sources.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +43,9 @@ struct Authority {
 
 /// Tolerance for sums of periods (s).
 const ROUNDING: f64 = 1e-6;
+/// Longest time for which a source that waits for the reply to a request counts as sending (s). An evaluation takes
+/// less; if it never ends, the source's authority still does.
+const EVALUATION_MAX: f64 = 1.0;
 
 impl CommandArbiter {
     /// No source has authority yet.
@@ -51,18 +54,17 @@ impl CommandArbiter {
     }
 
     /// Admits the source of a request, and gives it authority if the request is streamed. A refused request changes
-    /// nothing. A stop is admitted from every source, but takes no authority from a source of higher priority.
+    /// nothing.
     ///
     /// # Errors
-    /// A source of higher priority has control authority.
+    /// A source of higher priority has control authority. Of such a request only a stop may be granted.
     pub fn admit(&mut self, request: &Request) -> Result<(), ControlAuthority> {
         let source = request.source;
         if let Some(authority) = &self.authority
             && self.outranks(authority.source, source)
         {
             let remaining = (authority.timeout - authority.age).max(0.0);
-            let authority = ControlAuthority { source: authority.source, remaining };
-            return if request.is_stop() { Ok(()) } else { Err(authority) };
+            return Err(ControlAuthority { source: authority.source, remaining });
         }
         match self.timeout(request) {
             Some(timeout) => self.authority = Some(Authority { source, timeout, age: 0.0, is_fresh: true }),
@@ -75,14 +77,17 @@ impl CommandArbiter {
 
     /// Ends a period of `dt` seconds and gives the source whose authority has just expired. To be called after
     /// [`admit`](Self::admit) in each period: a request that has arrived counts, however late the period is.
-    pub fn advance(&mut self, dt: f64) -> Option<Source> {
+    ///
+    /// * `waiting` – the source whose request is under evaluation: it is not silent, it waits
+    pub fn advance(&mut self, dt: f64, waiting: Option<Source>) -> Option<Source> {
         let authority = self.authority.as_mut()?;
         if std::mem::take(&mut authority.is_fresh) {
             return None;
         }
         // A NaN counts as no time.
         authority.age += dt.max(0.0);
-        if authority.age <= authority.timeout + ROUNDING {
+        let waits = if waiting == Some(authority.source) { EVALUATION_MAX } else { 0.0 };
+        if authority.age <= authority.timeout + waits + ROUNDING {
             return None;
         }
         self.authority.take().map(|authority| authority.source)
@@ -98,7 +103,8 @@ impl CommandArbiter {
         match request.lifetime {
             Lifetime::Latched | Lifetime::Release => None,
             Lifetime::Streamed => {
-                request.timeout.filter(|own| own.is_finite() && *own > 0.0).or(self.parameters.timeout)
+                let own = request.timeout.filter(|own| own.is_finite() && *own > 0.0);
+                own.map(|own| own.min(COMMAND_TIMEOUT_MAX)).or(self.parameters.timeout)
             }
         }
     }
@@ -111,7 +117,6 @@ impl CommandArbiter {
 
 #[cfg(test)]
 mod tests {
-    use interface::Intent;
 
     use super::*;
 
@@ -134,7 +139,7 @@ mod tests {
     fn pass(arbiter: &mut CommandArbiter, periods: u32) -> Option<(u32, Source)> {
         let mut expired = None;
         for period in 1..=periods {
-            expired = arbiter.advance(DT).map(|source| (period, source)).or(expired);
+            expired = arbiter.advance(DT, None).map(|source| (period, source)).or(expired);
         }
         expired
     }
@@ -144,10 +149,10 @@ mod tests {
         for (own, timeout_in_periods) in [(None, 500), (Some(0.2), 200), (Some(2.0), 2000), (Some(1e-4), 0)] {
             let mut arbiter = arbiter();
             arbiter.admit(&streamed_for(Source::Script, own)).unwrap();
-            assert_eq!(arbiter.advance(DT), None, "the request is of this period");
+            assert_eq!(arbiter.advance(DT, None), None, "the request is of this period");
             assert_eq!(pass(&mut arbiter, timeout_in_periods), None, "exactly the timeout");
             assert_eq!(arbiter.in_control(), Some(Source::Script));
-            assert_eq!(arbiter.advance(DT), Some(Source::Script));
+            assert_eq!(arbiter.advance(DT, None), Some(Source::Script));
             assert_eq!(arbiter.in_control(), None);
             assert_eq!(pass(&mut arbiter, 5000), None, "authority expires once");
         }
@@ -160,7 +165,7 @@ mod tests {
             if period % 500 == 0 {
                 arbiter.admit(&streamed(Source::Program)).unwrap();
             }
-            assert_eq!(arbiter.advance(DT), None);
+            assert_eq!(arbiter.advance(DT, None), None);
         }
     }
 
@@ -180,9 +185,9 @@ mod tests {
         arbiter.admit(&streamed(Source::Script)).unwrap();
         assert_eq!(pass(&mut arbiter, 501), None);
         arbiter.admit(&streamed(Source::Script)).unwrap();
-        assert_eq!(arbiter.advance(10.0), None);
-        assert_eq!(arbiter.advance(0.5), None);
-        assert_eq!(arbiter.advance(DT), Some(Source::Script));
+        assert_eq!(arbiter.advance(10.0, None), None);
+        assert_eq!(arbiter.advance(0.5, None), None);
+        assert_eq!(arbiter.advance(DT, None), Some(Source::Script));
     }
 
     #[test]
@@ -191,9 +196,9 @@ mod tests {
             let mut arbiter = arbiter();
             arbiter.admit(&streamed(Source::Teleop)).unwrap();
             for nothing in [0.0, f64::NAN, -1.0, f64::NEG_INFINITY] {
-                assert_eq!(arbiter.advance(nothing), None);
+                assert_eq!(arbiter.advance(nothing, None), None);
             }
-            assert_eq!(arbiter.advance(huge), Some(Source::Teleop));
+            assert_eq!(arbiter.advance(huge, None), Some(Source::Teleop));
         }
     }
 
@@ -240,17 +245,34 @@ mod tests {
     }
 
     #[test]
-    fn a_stop_is_admitted_from_every_source_and_takes_no_authority() {
+    fn a_source_that_waits_for_its_reply_is_not_silent() {
         let mut arbiter = arbiter();
-        arbiter.admit(&streamed(Source::Teleop)).unwrap();
-        assert_eq!(pass(&mut arbiter, 101), None);
-        for &source in Source::ALL {
-            if source != Source::Teleop {
-                assert_eq!(arbiter.admit(&Request { intent: Some(Intent::Stop), ..streamed(source) }), Ok(()));
-                assert_eq!(arbiter.in_control(), Some(Source::Teleop));
-            }
+        arbiter.admit(&streamed_for(Source::Script, Some(0.1))).unwrap();
+        for _ in 0..1100 {
+            assert_eq!(arbiter.advance(DT, Some(Source::Script)), None);
         }
-        assert_eq!(pass(&mut arbiter, 401), Some((401, Source::Teleop)), "stops of others do not restart the timeout");
+        assert_eq!(arbiter.in_control(), Some(Source::Script));
+        arbiter.advance(DT, Some(Source::Script));
+        assert_eq!(arbiter.advance(DT, Some(Source::Script)), Some(Source::Script), "no evaluation takes so long");
+    }
+
+    #[test]
+    fn a_source_that_waits_for_nothing_times_out_while_another_one_waits() {
+        let mut arbiter = arbiter();
+        arbiter.admit(&streamed_for(Source::Script, Some(0.1))).unwrap();
+        for _ in 0..101 {
+            assert_eq!(arbiter.advance(DT, Some(Source::Console)), None);
+        }
+        assert_eq!(arbiter.advance(DT, Some(Source::Console)), Some(Source::Script));
+    }
+
+    #[test]
+    fn no_timeout_is_longer_than_the_longest() {
+        let mut arbiter = arbiter();
+        arbiter.admit(&streamed_for(Source::Teleop, Some(1e300))).unwrap();
+        assert_eq!(arbiter.advance(DT, None), None);
+        assert_eq!(arbiter.advance(COMMAND_TIMEOUT_MAX, None), None);
+        assert_eq!(arbiter.advance(DT, None), Some(Source::Teleop));
     }
 
     #[test]

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use dynamics::{Kinematics, ReferenceDynamics, Tree};
 use gait::{NominalTable, Start, Walk, WalkError};
-use interface::{AddedAngles, Fault, Faults, Intent, Measurement, Mode, Report, Setpoint};
+use interface::{AddedAngles, Fault, Faults, Intent, Measurement, Mode, Reason, Report, Setpoint};
 use model::{ComState, Mechanism, Motion};
 use nalgebra::Vector2;
 use pattern::{FeasibilityCheck, PatternGenerator, Stance};
@@ -30,6 +30,10 @@ const FLAT_MARGIN: f64 = 0.005;
 const SUPPORT_CHANGE: f64 = 0.03;
 /// Least speed factor by which [`SUPPORT_CHANGE`] is measured.
 const SPEED_MIN: f64 = 0.1;
+/// Shortest period that a tick plays (s): rates are differences over it.
+const PERIOD_MIN: f64 = 1e-6;
+/// Longest period that a tick plays (s), shorter than any half-step: what a loop was late by beyond it is lost.
+const PERIOD_MAX: f64 = 0.1;
 
 /// The state of the controller. Everything is allocated in [`Controller::new`]; a tick allocates nothing.
 #[derive(Clone, Debug)]
@@ -120,15 +124,16 @@ impl Controller {
         }
     }
 
-    /// One control period.
+    /// One control period. Returns for every input.
     ///
-    /// * `dt` – its length (s)
+    /// * `dt` – its length (s); what is not a number or outside 1 µs to 0.1 s is played as the nearest of these
     /// * `measurement` – the newest one, if a new one arrived since the last tick
     pub fn tick(&mut self, dt: f64, measurement: Option<&Measurement>) -> Tick {
         let mut faults = Faults::default();
+        let dt = playable(dt);
 
         // Does the source in control still send?
-        if self.arbiter.advance(dt).is_some() && self.state.intent().steps() {
+        if self.arbiter.advance(dt, self.admission.waiting()).is_some() && self.state.intent().steps() {
             self.stop(Stance::Parallel);
         }
 
@@ -158,6 +163,7 @@ impl Controller {
             report: self.report(&commanded, com_measured, is_same_foot, faults),
             command: self.pattern.gait().command(),
             reply: self.admission.take_reply(),
+            superseded: self.admission.take_superseded(),
         }
     }
 
@@ -166,10 +172,16 @@ impl Controller {
         self.state.mode(self.pattern.gait().phase())
     }
 
-    /// Stops by its own decision, whatever request is under evaluation.
-    fn stop(&mut self, stance: Stance) {
+    /// Stops, and refuses the request under evaluation: no late answer undoes a stop. Returns the index of the
+    /// half-step in which the robot will stand.
+    fn stop(&mut self, stance: Stance) -> u64 {
         self.state.set_intent(if stance == Stance::Parallel { Intent::Stop } else { Intent::Hold });
-        self.pattern.gait_mut().stop(stance);
+        self.admission.cancel(self.refused(Reason::Superseded));
+        if let Pattern::Planned(generator) = &mut self.pattern {
+            generator.cancel_speed_override();
+        }
+        let gait = self.pattern.gait_mut();
+        gait.half_step().index + gait.stop(stance)
     }
 
     /// Latches a fault until a reset; a walk stops.
@@ -259,7 +271,10 @@ impl Controller {
         }
         if let Some(recovery) = self.state.advance_recovery(dt) {
             let gait = self.pattern.gait();
-            return gait.walk().mirror().to_support(gait.half_step().support, &recovery);
+            let mirror = gait.walk().mirror();
+            let motion = mirror.to_support(gait.half_step().support, &recovery);
+            self.reference.update(&self.tree, mirror, &motion, true);
+            return motion;
         }
         let gait = self.pattern.gait_mut();
         if gait.advance(dt) {
@@ -315,4 +330,9 @@ impl Controller {
         let planned = commanded.angles - self.feedback.offsets().angles - self.landing.offsets().angles;
         is_known.then(|| added_angles(&self.mechanism, &walk.motion_at(now.progress).angles, &planned))
     }
+}
+
+/// The length of a period that a tick plays: within [`PERIOD_MIN`] and [`PERIOD_MAX`] for every number.
+fn playable(dt: f64) -> f64 {
+    if dt > PERIOD_MIN { dt.min(PERIOD_MAX) } else { PERIOD_MIN }
 }

@@ -71,21 +71,26 @@ impl<W: AdmissionWorker> Driver<W> {
     ///
     /// * `dt` – its length (s)
     /// * `measurement` – the newest one, if there is one
-    /// * `next_request` – gives the request that is due, if any; called only if the controller can take one
+    /// * `next_request` – gives the request that is due, if any; called only if the controller can take one, with whether
+    ///   only an [urgent](Request::is_urgent) one can be taken
     pub fn step(
         &mut self,
         dt: f64,
         measurement: Option<&Measurement>,
-        next_request: impl FnOnce() -> Option<Request>,
+        next_request: impl FnOnce(bool) -> Option<Request>,
     ) -> Step {
         let mut admission = AdmissionTiming::None;
         if self.worker.serve(&mut self.controller, AdmissionTiming::BeforeRequest) {
             admission = AdmissionTiming::BeforeRequest;
         }
-        let submitted = if self.controller.accepts_request() { next_request() } else { None };
+        let urgent_only = !self.controller.accepts_request();
+        let submitted = if self.controller.accepts_urgent_request() { next_request(urgent_only) } else { None };
         if let Some(request) = &submitted {
             self.controller.submit(request);
-            if self.worker.serve(&mut self.controller, AdmissionTiming::AfterRequest) {
+            // A request that was replied to at once leaves no room for the reply of a job.
+            if self.controller.accepts_urgent_request()
+                && self.worker.serve(&mut self.controller, AdmissionTiming::AfterRequest)
+            {
                 admission = AdmissionTiming::AfterRequest;
             }
         }

@@ -1,4 +1,5 @@
-//! The joint limiter: every setpoint passes it last. Angles stay in range, rates within limits, values finite.
+//! The joint limiter: every setpoint passes it last. Angles stay in range, rates and torques within limits, values
+//! finite.
 
 use interface::{Fault, Faults, Setpoint};
 use model::{Joint, JointVector, Mechanism, Motion, PerJoint};
@@ -7,13 +8,22 @@ use model::{Joint, JointVector, Mechanism, Motion, PerJoint};
 #[derive(Clone, Debug)]
 pub struct JointLimiter {
     limits: PerJoint<Option<model::JointLimits>>,
+    /// Torque of each joint's motor at standstill and full voltage (N·m).
+    torque_max: PerJoint<f64>,
     last: JointVector,
 }
 
 impl JointLimiter {
     /// A limiter for a mechanism whose joints are at `angles` now (rad).
     pub fn new(mechanism: &Mechanism, angles: &JointVector) -> Self {
-        Self { limits: PerJoint::from_fn(|joint| mechanism.links[joint].limits), last: *angles }
+        let torque_max = |joint: Joint| {
+            mechanism.links[joint].motor.map_or(0.0, |motor| motor.torque_per_volt() * motor.voltage_max)
+        };
+        Self {
+            limits: PerJoint::from_fn(|joint| mechanism.links[joint].limits),
+            torque_max: PerJoint::from_fn(torque_max),
+            last: *angles,
+        }
     }
 
     /// The permitted setpoint nearest to the commanded motion; `dt` is the time since the last one (s).
@@ -38,7 +48,7 @@ impl JointLimiter {
             setpoint.angles[joint] = angle;
             // A joint whose angle was limited must not be carried on by its rate.
             setpoint.rates[joint] = if angle == commanded.angles[joint] { rate } else { 0.0 };
-            setpoint.feed_forward[joint] = feed_forward[joint];
+            setpoint.feed_forward[joint] = feed_forward[joint].clamp(-self.torque_max[joint], self.torque_max[joint]);
         }
         self.last = setpoint.angles;
         setpoint

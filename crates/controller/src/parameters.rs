@@ -3,7 +3,7 @@
 use ::pattern::FeasibilityParameters;
 use config::{Config, Table};
 use gait::{GaitParameters, Limits, RampKind};
-use interface::{COMMAND_TIMEOUT_MIN as TIMEOUT_MIN, Source};
+use interface::{COMMAND_TIMEOUT_MAX as TIMEOUT_MAX, COMMAND_TIMEOUT_MIN as TIMEOUT_MIN, Source};
 use stabilizer::{FeedbackParameters, LandingParameters, ZmpParameters};
 
 use crate::command_arbiter::ArbiterParameters;
@@ -26,9 +26,6 @@ pub struct Parameters {
     /// Command timeout and priorities of the sources.
     pub arbiter: ArbiterParameters,
 }
-
-/// Longest command timeout that may be configured (s): a robot that walks on for longer without commands is unattended.
-const TIMEOUT_MAX: f64 = 60.0;
 
 impl Config for Parameters {
     fn read(root: &Table) -> Self {

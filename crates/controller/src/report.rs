@@ -13,8 +13,10 @@ pub struct Tick {
     pub report: Report,
     /// The gait parameters in force; the report has the speed of the instant, which follows over a ramp.
     pub command: Command,
-    /// The reply to an earlier request, if it is decided.
+    /// The reply to a request that is decided: to the one submitted before this tick, else to an earlier one.
     pub reply: Option<Reply>,
+    /// The refusal of the request that was under evaluation when the robot was stopped.
+    pub superseded: Option<Reply>,
 }
 
 /// Within the controller the support foot is always the right one. Mirrors a report back if it is the left one: points

@@ -34,7 +34,7 @@ pub use command::{Command, GaitChange};
 pub use fault::{Fault, Faults};
 pub use half_step::HalfStep;
 pub use intent::Intent;
-pub use lifetime::{COMMAND_TIMEOUT_MIN, Lifetime};
+pub use lifetime::{COMMAND_TIMEOUT_MAX, COMMAND_TIMEOUT_MIN, Lifetime};
 pub use measurement::Measurement;
 pub use mode::Mode;
 pub use period_timing::PeriodTiming;

@@ -5,6 +5,9 @@ use crate::code::codes;
 /// Shortest command timeout that a controller may have by default (s): streams without a timeout of their own send
 /// several heartbeats within it.
 pub const COMMAND_TIMEOUT_MIN: f64 = 0.1;
+/// Longest command timeout (s): a robot that walks on for longer without its source is unattended. Longer ones are cut
+/// to it.
+pub const COMMAND_TIMEOUT_MAX: f64 = 60.0;
 
 codes! {
     /// How long a request stays in effect.

@@ -41,9 +41,8 @@ codes! {
         SoleClearance = 16 "the swing foot would come too close to the ground or to the other foot",
         /// A leg would be overextended.
         LegReach = 17 "a leg would be overextended",
-        /// A newer request took its place before it could take effect. Reserved: no controller of this version sends
-        /// it.
-        Superseded = 18 "a newer request replaced it",
+        /// A stop or a newer request took its place before it could take effect.
+        Superseded = 18 "a stop or a newer request replaced it",
         /// The robot has fallen.
         Fallen = 19 "the robot has fallen: set it upright and send reset",
         /// A fault is latched.

@@ -2,7 +2,8 @@
 
 use crate::{GaitChange, Intent, Lifetime, Source};
 
-/// A request of an operator. It is atomic: it takes effect as a whole or not at all.
+/// A request of an operator. It is atomic: it takes effect as a whole or not at all; only a stop takes effect at once,
+/// and from a source of lower priority than the one in control it is all that does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Request {
     /// The controller's tick before which it must not take effect; 0 is at once.
@@ -33,5 +34,10 @@ impl Request {
     /// Whether it ends the walk, which is granted to every source.
     pub fn is_stop(&self) -> bool {
         self.intent.is_some_and(Intent::is_stop)
+    }
+
+    /// Whether it need not wait for the request that is under evaluation: a stop or a heartbeat.
+    pub fn is_urgent(&self) -> bool {
+        self.is_stop() || self.is_empty()
     }
 }

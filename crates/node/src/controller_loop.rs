@@ -9,7 +9,7 @@ use crate::cycle::{Cycles, PeerSilent};
 use crate::entry::{ControllerEntry, ControllerEvent};
 use crate::recorder::Recorder;
 use crate::request_bridge::RequestId;
-use crate::request_queue::RequestQueue;
+use crate::request_queue::{DueRequest, RequestQueue};
 use crate::timing::{TimingHistogram, TimingStats};
 
 /// Result of a run of the controller's loop.
@@ -45,7 +45,6 @@ pub fn run_controller<W: AdmissionWorker>(
 ) -> Result<ControllerRun, PeerSilent> {
     let mut run = ControllerRun::default();
     let mut histogram = TimingHistogram::new();
-    let mut due = None;
     let mut must_hold = false;
     while let Some(cycle) = cycles.wait(|| requests.collect(recorder))? {
         let time_ns = now_ns();
@@ -53,18 +52,15 @@ pub fn run_controller<W: AdmissionWorker>(
         must_hold |= hold_after_misses > 0 && cycle.missed_in_a_row >= hold_after_misses;
 
         requests.collect(recorder);
-        let mut request = 0;
-        let step = driver.step(cycle.dt, Some(&cycle.message.measurement()), || {
-            if std::mem::take(&mut must_hold) {
+        let mut submitted = None;
+        let step = driver.step(cycle.dt, Some(&cycle.message.measurement()), |urgent_only| {
+            submitted = if std::mem::take(&mut must_hold) {
                 recorder.push(ControllerEvent::Request(RequestId::LOOP.number(), RequestMessage::from(&HOLD)));
-                request = RequestId::LOOP.number();
-                return Some(HOLD);
-            }
-            due = requests.due(cycle.tick);
-            due.as_ref().map(|due| {
-                request = due.id.number();
-                due.request
-            })
+                Some(DueRequest { id: RequestId::LOOP, request: HOLD })
+            } else {
+                requests.due(cycle.tick, urgent_only, recorder)
+            };
+            submitted.map(|due| due.request)
         });
 
         let setpoint = SetpointMessage::new(cycle.message.tick, time_ns, &step.tick.setpoint);
@@ -81,11 +77,11 @@ pub fn run_controller<W: AdmissionWorker>(
             periods: cycle.periods,
             dt: cycle.dt,
             measurement: cycle.message,
-            request,
+            request: submitted.map_or(0, |due| due.id.number()),
             admission: step.admission,
             tick,
         }));
-        requests.answer(due.take_if(|_| tick.reply.is_some()), &tick, recorder);
+        requests.answer(submitted, &tick, recorder);
         let (half_steps, mode) = (tick.report.half_step.index, Some(tick.report.mode));
         run = ControllerRun { ticks: cycle.tick + 1, half_steps, mode, ..run };
     }

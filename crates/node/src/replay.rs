@@ -141,7 +141,7 @@ impl Replayer {
         self.next_tick = tick.tick + 1;
         self.driver.worker.timing = AdmissionTiming::from_code(tick.returned);
         let request = self.requests.remove(&tick.request).and_then(|message| message.checked().ok());
-        let step = self.driver.step(tick.dt, Some(&measurement.measurement()), || request);
+        let step = self.driver.step(tick.dt, Some(&measurement.measurement()), |_| request);
         SetpointMessage::new(measurement.tick, time_ns, &step.tick.setpoint)
     }
 }

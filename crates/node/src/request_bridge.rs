@@ -4,7 +4,7 @@
 //! it, with a lock-free queue each way. In lockstep the loop does it itself: a request that was sent before a tick is
 //! handled in that tick.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, VecDeque};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
@@ -48,12 +48,21 @@ pub struct RequestIo {
     server: RequestServer,
     unanswered: HashMap<RequestId, Responder>,
     last: RequestId,
+    /// Stops that were received and not yet passed on.
+    stops: VecDeque<IncomingRequest>,
+    /// All other requests that were received and not yet passed on.
+    others: VecDeque<IncomingRequest>,
+    /// Requests whose operators have gone, not yet told.
+    abandoned: Vec<RequestId>,
+    /// Calls of [`receive`](Self::receive) until it looks for operators that have gone.
+    until_check: u32,
 }
 
 /// The queues between the loop and the thread.
 #[derive(Debug)]
 pub struct Queues {
     requests: ArrayQueue<IncomingRequest>,
+    abandoned: ArrayQueue<RequestId>,
     replies: ArrayQueue<(RequestId, ReplyMessage)>,
     closed: AtomicBool,
 }
@@ -62,6 +71,10 @@ pub struct Queues {
 const REQUESTS: usize = 8;
 /// How long the thread sleeps when there is nothing to do: a fraction of a period.
 const POLL_INTERVAL: Duration = Duration::from_micros(100);
+/// Most requests that are received before the loop gets some of them: as many as all operators can have without a reply.
+const RECEIVED_AT_ONCE: usize = 2048;
+/// Calls of [`RequestIo::receive`] between two checks for operators that have gone.
+const CHECK_INTERVAL: u32 = 100;
 
 impl RequestId {
     /// Requests of the loop itself; their replies go nowhere.
@@ -70,6 +83,11 @@ impl RequestId {
     /// The number in recordings: requests are counted from 1 in the order of their arrival.
     pub const fn number(self) -> u32 {
         self.0
+    }
+
+    /// Whether its request arrived before that of another one.
+    pub const fn is_before(self, other: Self) -> bool {
+        self.0 < other.0
     }
 }
 
@@ -85,12 +103,13 @@ impl RequestBridge {
         unanswered: usize,
         scheduling: Scheduling,
     ) -> Result<Self, NodeError> {
-        let mut io = RequestIo { server, unanswered: HashMap::new(), last: RequestId(0) };
+        let mut io = RequestIo::new(server);
         if clock == Clock::Lockstep {
             return Ok(RequestBridge::Inline(io));
         }
         let queues = Arc::new(Queues {
             requests: ArrayQueue::new(REQUESTS),
+            abandoned: ArrayQueue::new(REQUESTS),
             replies: ArrayQueue::new(unanswered + REQUESTS),
             closed: AtomicBool::new(false),
         });
@@ -106,7 +125,22 @@ impl RequestBridge {
         Ok(RequestBridge::Threaded { queues, thread })
     }
 
-    /// The next request, if one has arrived. With a thread it neither allocates nor waits, and neither does
+    /// Receives what operators have sent, unless a thread does.
+    pub fn receive(&mut self) {
+        if let RequestBridge::Inline(io) = self {
+            io.receive();
+        }
+    }
+
+    /// The next request whose operator has gone without waiting for the reply, if any.
+    pub fn next_abandoned(&mut self) -> Option<RequestId> {
+        match self {
+            RequestBridge::Inline(io) => io.abandoned.pop(),
+            RequestBridge::Threaded { queues, .. } => queues.abandoned.pop(),
+        }
+    }
+
+    /// The next request that was received, stops first. With a thread it neither allocates nor waits, and neither does
     /// [`reply`](Self::reply).
     pub fn next_request(&mut self) -> Option<IncomingRequest> {
         match self {
@@ -138,14 +172,42 @@ impl RequestBridge {
 }
 
 impl RequestIo {
-    /// The next request that an operator has sent.
+    fn new(server: RequestServer) -> Self {
+        Self {
+            server,
+            unanswered: HashMap::new(),
+            last: RequestId(0),
+            stops: VecDeque::new(),
+            others: VecDeque::new(),
+            abandoned: Vec::new(),
+            until_check: CHECK_INTERVAL,
+        }
+    }
+
+    /// Receives all requests that operators have sent. No reply leaves meanwhile, and an operator can have only so many
+    /// requests without one: so each operator is served, however many requests another one sends.
+    pub fn receive(&mut self) {
+        for _ in 0..RECEIVED_AT_ONCE {
+            // An operator whose memory cannot be reached has gone; the next call finds the others.
+            let Some((message, answer)) = self.server.next_request().ok().flatten() else { break };
+            let id = RequestId(self.last.0 + 1);
+            self.last = id;
+            self.unanswered.insert(id, answer);
+            let is_stop = message.checked().is_ok_and(|request| request.is_stop());
+            let received = if is_stop { &mut self.stops } else { &mut self.others };
+            received.push_back(IncomingRequest { id, message });
+        }
+        self.until_check -= 1;
+        if self.until_check == 0 {
+            self.until_check = CHECK_INTERVAL;
+            let Self { unanswered, abandoned, .. } = self;
+            abandoned.extend(unanswered.extract_if(|_, answer| !answer.is_wanted()).map(|(id, _)| id));
+        }
+    }
+
+    /// The next request that was received, stops first.
     pub fn next_request(&mut self) -> Option<IncomingRequest> {
-        // An operator whose memory cannot be reached has gone; the next call finds the others.
-        let (message, answer) = self.server.next_request().ok().flatten()?;
-        let id = RequestId(self.last.0 + 1);
-        self.last = id;
-        self.unanswered.insert(id, answer);
-        Some(IncomingRequest { id, message })
+        self.stops.pop_front().or_else(|| self.others.pop_front())
     }
 
     /// Sends the reply to a request.
@@ -167,11 +229,17 @@ impl RequestIo {
             if closed {
                 return;
             }
+            self.receive();
+            // The loop only takes out: there is still room.
             while !queues.requests.is_full()
                 && let Some(request) = self.next_request()
             {
-                // The loop only takes out: there is still room.
                 let _ = queues.requests.push(request);
+            }
+            while !queues.abandoned.is_full()
+                && let Some(id) = self.abandoned.pop()
+            {
+                let _ = queues.abandoned.push(id);
             }
             std::thread::sleep(POLL_INTERVAL);
         }

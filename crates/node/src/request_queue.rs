@@ -1,7 +1,11 @@
 //! Requests that wait for the tick before which they must not take effect, and their replies.
+//!
+//! A stop waits for nothing: it overtakes all others, there is always room for it, and what was requested before it and
+//! still waits is refused. A heartbeat overtakes requests that need an evaluation. A newer request of a source takes the
+//! place of an older one that it overrides. Requests of operators that have gone are dropped.
 
 use controller::Tick;
-use interface::{Command, Intent, Lifetime, Reason, Reply, Request, Verdict};
+use interface::{Command, Intent, Lifetime, Reason, Reply, Request, Source, Verdict};
 use serde::{Deserialize, Serialize};
 use wire::{MessageFault, ReplyMessage, RequestMessage};
 
@@ -9,13 +13,28 @@ use crate::entry::ControllerEvent;
 use crate::recorder::Recorder;
 use crate::request_bridge::{IncomingRequest, RequestBridge, RequestId};
 
-/// Most requests that can wait for their tick.
+/// Most requests that can wait for their tick, beside stops and heartbeats.
 pub const CAPACITY: usize = 256;
+/// Most stops that can wait; a later one takes the place of the last.
+const STOPS: usize = 16;
 
-/// Requests on their way to the controller, earliest tick first; those for one tick in the order of their arrival.
+/// Requests on their way to the controller.
 pub struct RequestQueue {
     bridge: RequestBridge,
+    /// Stops for at once, in the order of their arrival.
+    stops: heapless::Vec<DueRequest, STOPS>,
+    /// The newest heartbeat of each source.
+    heartbeats: [Option<DueRequest>; Source::ALL.len()],
+    /// All others, earliest tick first; those for one tick in the order of their arrival.
     scheduled: heapless::Vec<DueRequest, CAPACITY>,
+    /// The request that the controller evaluates.
+    under_evaluation: Option<DueRequest>,
+    /// The newest stop that was taken: older requests that arrive after it are refused.
+    newest_stop: Option<RequestId>,
+    /// The next tick.
+    tick: u64,
+    /// Whether a heartbeat was taken last: another request has its turn.
+    took_heartbeat: bool,
     /// What is in force, for the reply to a request that is refused at once.
     in_force: InForce,
     tally: Tally,
@@ -31,6 +50,7 @@ struct InForce {
 
 /// A request whose tick has come. Command arbitration counts its source as active from that tick on, not from when it
 /// was sent.
+#[derive(Clone, Copy, Debug)]
 pub struct DueRequest {
     /// Routes the reply back to the operator.
     pub id: RequestId,
@@ -53,14 +73,30 @@ impl RequestQueue {
     /// An empty queue for the requests of a bridge.
     pub fn new(bridge: RequestBridge) -> Self {
         let in_force = InForce { half_step: 0, command: Command::NOMINAL, intent: None };
-        Self { bridge, scheduled: heapless::Vec::new(), in_force, tally: Tally::default() }
+        Self {
+            bridge,
+            stops: heapless::Vec::new(),
+            heartbeats: [None; Source::ALL.len()],
+            scheduled: heapless::Vec::new(),
+            under_evaluation: None,
+            newest_stop: None,
+            tick: 0,
+            took_heartbeat: false,
+            in_force,
+            tally: Tally::default(),
+        }
     }
 
-    /// Takes in all requests that have arrived, and refuses at once those that can never be granted.
+    /// Takes in all requests that have arrived, refuses at once those that can never be granted, and drops those of
+    /// operators that have gone.
     pub fn collect(&mut self, recorder: &mut Recorder<ControllerEvent>) {
+        self.bridge.receive();
         while let Some(request) = self.bridge.next_request() {
             recorder.push(request.event());
             self.schedule(request, recorder);
+        }
+        while let Some(id) = self.bridge.next_abandoned() {
+            self.scheduled.retain(|waiting| waiting.id != id);
         }
     }
 
@@ -69,29 +105,118 @@ impl RequestQueue {
             Ok(request) => request,
             Err(reason) => return self.refuse(id, reason, recorder),
         };
-        let place = self.scheduled.partition_point(|scheduled| scheduled.request.not_before <= request.not_before);
-        if self.scheduled.insert(place, DueRequest { id, request }).is_err() {
-            self.refuse(id, Reason::QueueFull, recorder);
+        let due = DueRequest { id, request };
+        let is_due = request.not_before <= self.tick;
+        if is_due && request.is_stop() {
+            if self.stops.is_full()
+                && let Some(last) = self.stops.pop()
+            {
+                self.refuse(last.id, Reason::Superseded, recorder);
+            }
+            // There is room now.
+            let _ = self.stops.push(due);
+        } else if is_due && self.newest_stop.is_some_and(|stop| id.is_before(stop)) {
+            self.refuse(id, Reason::Superseded, recorder);
+        } else if is_due && request.is_empty() {
+            if let Some(older) = self.heartbeats[place(request.source)].replace(due) {
+                // Heartbeats are not counted.
+                let refusal = self.in_force.refused(Reason::Superseded);
+                self.reply(older.id, &refusal, recorder);
+            }
+        } else {
+            if is_due {
+                self.supersede(&request, recorder);
+            }
+            let at = self.scheduled.partition_point(|waiting| waiting.request.not_before <= request.not_before);
+            if self.scheduled.insert(at, due).is_err() {
+                self.refuse(id, Reason::QueueFull, recorder);
+            }
         }
     }
 
-    /// Takes out the one request that is due at a tick and has waited longest for it.
-    pub fn due(&mut self, tick: u64) -> Option<DueRequest> {
-        let is_due = self.scheduled.first().is_some_and(|first| first.request.not_before <= tick);
-        is_due.then(|| self.scheduled.remove(0))
+    /// Refuses the waiting requests that a newer one of the same source overrides.
+    fn supersede(&mut self, newer: &Request, recorder: &mut Recorder<ControllerEvent>) {
+        let tick = self.tick;
+        let overridden = |older: &Request| older.not_before <= tick && is_overridden(older, newer);
+        while let Some(at) = self.scheduled.iter().position(|waiting| overridden(&waiting.request)) {
+            let older = self.scheduled.remove(at);
+            self.refuse(older.id, Reason::Superseded, recorder);
+        }
     }
 
-    /// Sends the tick's reply to a request, and remembers what is in force.
-    pub fn answer(&mut self, due: Option<DueRequest>, tick: &Tick, recorder: &mut Recorder<ControllerEvent>) {
+    /// Takes out the request that is due at a tick: a stop, else a heartbeat, else the one that has waited longest.
+    ///
+    /// * `urgent_only` – only a stop or a heartbeat
+    pub fn due(
+        &mut self,
+        tick: u64,
+        urgent_only: bool,
+        recorder: &mut Recorder<ControllerEvent>,
+    ) -> Option<DueRequest> {
+        self.tick = tick;
+        if let Some(stop) = self.due_stop(recorder) {
+            return Some(stop);
+        }
+        let is_due = self.scheduled.first().is_some_and(|first| first.request.not_before <= tick);
+        if !(self.took_heartbeat && is_due && !urgent_only)
+            && let Some(heartbeat) = self.heartbeats.iter_mut().find_map(Option::take)
+        {
+            self.took_heartbeat = true;
+            return Some(heartbeat);
+        }
+        self.took_heartbeat = false;
+        (is_due && !urgent_only).then(|| self.scheduled.remove(0))
+    }
+
+    /// Takes out a stop that is due, and refuses everything that was to take effect before it.
+    fn due_stop(&mut self, recorder: &mut Recorder<ControllerEvent>) -> Option<DueRequest> {
+        let due = self.scheduled.partition_point(|waiting| waiting.request.not_before <= self.tick);
+        let (stop, older) = if self.stops.is_empty() {
+            let at = self.scheduled[..due].iter().position(|waiting| waiting.request.is_stop())?;
+            (self.scheduled.remove(at), at)
+        } else {
+            let stop = self.stops.remove(0);
+            (stop, self.scheduled[..due].iter().filter(|waiting| waiting.id.is_before(stop.id)).count())
+        };
+        self.newest_stop = Some(stop.id);
+        for _ in 0..older {
+            let waiting = self.scheduled.remove(0);
+            self.refuse(waiting.id, Reason::Superseded, recorder);
+        }
+        Some(stop)
+    }
+
+    /// Sends the replies of a tick, and remembers what is in force.
+    ///
+    /// * `submitted` – the request that was submitted before the tick
+    pub fn answer(&mut self, submitted: Option<DueRequest>, tick: &Tick, recorder: &mut Recorder<ControllerEvent>) {
         self.in_force.half_step = tick.report.half_step.index;
         self.in_force.command = tick.command;
-        if let (Some(due), Some(reply)) = (due, &tick.reply) {
-            self.in_force.intent = reply.intent;
-            if !due.request.is_empty() {
-                self.tally.count(reply.verdict);
-            }
-            self.reply(due.id, reply, recorder);
+        if let (Some(refusal), Some(superseded)) = (&tick.superseded, self.under_evaluation) {
+            self.under_evaluation = None;
+            self.decided(superseded, refusal, recorder);
         }
+        match (submitted, &tick.reply) {
+            (Some(submitted), Some(reply)) => self.decided(submitted, reply, recorder),
+            (Some(submitted), None) => self.under_evaluation = Some(submitted),
+            (None, Some(reply)) => {
+                if let Some(evaluated) = self.under_evaluation.take() {
+                    self.decided(evaluated, reply, recorder);
+                }
+            }
+            (None, None) => {}
+        }
+    }
+
+    fn decided(&mut self, due: DueRequest, reply: &Reply, recorder: &mut Recorder<ControllerEvent>) {
+        self.in_force.intent = reply.intent;
+        if due.id == RequestId::LOOP {
+            return;
+        }
+        if !due.request.is_empty() {
+            self.tally.count(reply.verdict);
+        }
+        self.reply(due.id, reply, recorder);
     }
 
     /// Refuses all requests that still wait, because the controller ends. Returns the tally of the others.
@@ -99,7 +224,9 @@ impl RequestQueue {
         let refusal = ReplyMessage::from(&self.in_force.refused(Reason::ShuttingDown));
         let (mut io, unread) = self.bridge.close();
         let mut unread = unread.into_iter();
-        let mut refused: Vec<RequestId> = self.scheduled.iter().map(|scheduled| scheduled.id).collect();
+        let waiting = self.stops.iter().chain(self.heartbeats.iter().flatten()).chain(&self.scheduled);
+        let mut refused: Vec<RequestId> = waiting.chain(&self.under_evaluation).map(|waiting| waiting.id).collect();
+        io.receive();
         while let Some(request) = unread.next().or_else(|| io.next_request()) {
             recorder.push(request.event());
             refused.push(request.id);
@@ -122,6 +249,21 @@ impl RequestQueue {
         self.bridge.reply(id, message);
         recorder.push(ControllerEvent::Reply(id.number(), message));
     }
+}
+
+/// Where the heartbeat of a source is kept.
+fn place(source: Source) -> usize {
+    Source::ALL.iter().position(|&other| other == source).unwrap_or(0)
+}
+
+/// Whether a newer request leaves nothing of an older one in effect.
+fn is_overridden(older: &Request, newer: &Request) -> bool {
+    older.source == newer.source
+        && older.lifetime == newer.lifetime
+        && older.gait.turn.is_none_or(|_| newer.gait.turn.is_some())
+        && older.gait.speed.is_none_or(|_| newer.gait.speed.is_some())
+        && older.gait.extension.is_none_or(|_| newer.gait.extension.is_some())
+        && older.intent.is_none_or(|_| newer.intent.is_some())
 }
 
 impl InForce {

@@ -16,6 +16,25 @@ pub struct Feasibility {
     pub margin: f64,
     /// The limit that is violated first, if any.
     pub violation: Option<LimitViolation>,
+    /// How far each limit is exceeded.
+    excess: Excess,
+}
+
+/// How far each limit is exceeded at most; 0 where it is kept.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Excess {
+    /// Missing distance of the ZMP to the edge of the sole (m).
+    margin: f64,
+    /// Of the physical joints (rad).
+    range: JointVector,
+    /// Of the physical joints (rad/s).
+    rate: JointVector,
+    /// Of the physical joints' motors (V).
+    voltage: JointVector,
+    /// Missing distance of the swing sole (m).
+    clearance: f64,
+    /// Whether a leg was too short for a posture.
+    is_out_of_reach: bool,
 }
 
 /// A limit that is violated.
@@ -59,6 +78,10 @@ pub struct FeasibilityParameters {
 const OFF_SUPPORT_CHANGES: std::ops::Range<f64> = 0.1..0.9;
 /// Progress between which the swing sole must be off the ground.
 const MID_SWING: std::ops::Range<f64> = 0.3..0.7;
+/// Loss of margin that counts as none (m).
+const MARGIN_LOSS_MAX: f64 = 0.002;
+/// Relative increase of another excess that counts as none.
+const INCREASE_MAX: f64 = 0.02;
 
 /// Checks motions of one robot. Never allocates after it is made.
 #[derive(Clone, Debug)]
@@ -77,25 +100,36 @@ impl FeasibilityCheck {
         Self { parameters, mechanism: mechanism.clone(), proportions: PatternProportions::of(mechanism), dynamics }
     }
 
-    /// Advances a generator by so many knots and checks each.
-    pub fn play(&mut self, generator: &mut PatternGenerator, knots: usize) -> Feasibility {
-        let mut feasibility = Feasibility { margin: f64::INFINITY, violation: None };
-        for _ in 0..knots {
+    /// Advances a generator knot by knot and checks each, as long as `goes_on` says so of the generator and the number of
+    /// knots so far.
+    pub fn play(
+        &mut self,
+        generator: &mut PatternGenerator,
+        goes_on: impl Fn(&PatternGenerator, usize) -> bool,
+    ) -> Feasibility {
+        let mut feasibility = Feasibility { margin: f64::INFINITY, violation: None, excess: Excess::NONE };
+        for knots in 0.. {
+            if !goes_on(generator, knots) {
+                break;
+            }
             generator.advance(KNOT);
-            let violation = self.check(generator, &mut feasibility.margin);
-            feasibility.violation = feasibility.violation.or(violation);
+            self.check(generator, &mut feasibility);
         }
         let (margin, margin_min) = (feasibility.margin, self.parameters.margin_min);
-        if feasibility.violation.is_none() && margin < margin_min {
-            feasibility.violation = Some(LimitViolation { limit: Limit::Margin, value: margin, bound: margin_min });
+        if margin < margin_min {
+            feasibility.excess.margin = margin_min - margin;
+            let violation = LimitViolation { limit: Limit::Margin, value: margin, bound: margin_min };
+            feasibility.violation.get_or_insert(violation);
         }
         feasibility
     }
 
-    /// The limit that is violated at present, if any; lessens `margin` to the present one.
-    fn check(&mut self, generator: &PatternGenerator, margin: &mut f64) -> Option<LimitViolation> {
+    /// Checks the present knot.
+    fn check(&mut self, generator: &PatternGenerator, feasibility: &mut Feasibility) {
         if generator.is_leg_out_of_reach() {
-            return Some(LimitViolation { limit: Limit::LegReach, value: 0.0, bound: 0.0 });
+            feasibility.excess.is_out_of_reach = true;
+            feasibility.violation.get_or_insert(LimitViolation { limit: Limit::LegReach, value: 0.0, bound: 0.0 });
+            return;
         }
         let (tree, mirror) = (generator.tree(), generator.walk().mirror());
         let (half_step, in_double_support) = (generator.half_step(), generator.in_double_support());
@@ -103,37 +137,43 @@ impl FeasibilityCheck {
         self.dynamics.update(tree, mirror, &motion, in_double_support);
         let is_swinging = !in_double_support && OFF_SUPPORT_CHANGES.contains(&half_step.progress);
         if is_swinging {
-            *margin = margin.min(self.dynamics.margin);
+            feasibility.margin = feasibility.margin.min(self.dynamics.margin);
         }
         let motion = mirror.to_physical(half_step.support, &motion);
         let torques = mirror.to_physical(half_step.support, &self.dynamics.torques);
-        let violation = self.check_joints(&motion, &torques);
-        violation.or_else(|| if is_swinging { self.check_clearance(half_step.progress) } else { None })
+        self.check_joints(&motion, &torques, feasibility);
+        if is_swinging && let Some(violation) = self.check_clearance(half_step.progress) {
+            let excess = &mut feasibility.excess;
+            excess.clearance = excess.clearance.max(violation.bound - violation.value);
+            feasibility.violation.get_or_insert(violation);
+        }
     }
 
     /// * `motion`, `torques` – of physical joints
-    fn check_joints(&self, motion: &Motion, torques: &JointVector) -> Option<LimitViolation> {
-        Joint::ALL.into_iter().find_map(|joint| {
+    fn check_joints(&self, motion: &Motion, torques: &JointVector, feasibility: &mut Feasibility) {
+        let Feasibility { violation, excess, .. } = feasibility;
+        let mut note = |limit, value: f64, bound: f64, excess: &mut f64| {
+            *excess = excess.max((value - bound).abs());
+            violation.get_or_insert(LimitViolation { limit, value, bound });
+        };
+        for joint in Joint::ALL {
             let link = &self.mechanism.links[joint];
-            let limits = link.limits?;
+            let Some(limits) = link.limits else { continue };
             let (angle, rate) = (motion.angles[joint], motion.rates[joint]);
-            let violated = |limit, value: f64, bound: f64| Some(LimitViolation { limit, value, bound });
-            if angle > limits.angle_max {
-                return violated(Limit::JointRange(joint), angle, limits.angle_max);
-            }
-            if angle < limits.angle_min {
-                return violated(Limit::JointRange(joint), angle, limits.angle_min);
+            let bound = angle.clamp(limits.angle_min, limits.angle_max);
+            if angle != bound {
+                note(Limit::JointRange(joint), angle, bound, &mut excess.range[joint]);
             }
             if rate.abs() > limits.rate_max {
-                return violated(Limit::JointRate(joint), rate, limits.rate_max.copysign(rate));
+                note(Limit::JointRate(joint), rate, limits.rate_max.copysign(rate), &mut excess.rate[joint]);
             }
-            let motor = link.motor?;
+            let Some(motor) = link.motor else { continue };
             let voltage = (torques[joint] + motor.back_emf_damping() * rate) / motor.torque_per_volt();
             if voltage.abs() > motor.voltage_max {
-                return violated(Limit::Voltage(joint), voltage, motor.voltage_max.copysign(voltage));
+                let bound = motor.voltage_max.copysign(voltage);
+                note(Limit::Voltage(joint), voltage, bound, &mut excess.voltage[joint]);
             }
-            None
-        })
+        }
     }
 
     /// Checks the distance of the swing sole to the support sole and, in mid-swing, to the ground.
@@ -151,5 +191,38 @@ impl FeasibilityCheck {
         });
         let bound = self.parameters.clearance_min;
         (gap < bound).then_some(LimitViolation { limit: Limit::SoleClearance, value: gap, bound })
+    }
+}
+
+impl Feasibility {
+    /// Whether every limit is kept, or exceeded no further than by another motion.
+    pub fn is_no_worse_than(&self, other: &Feasibility) -> bool {
+        self.violation.is_none() || self.excess.is_within(&other.excess)
+    }
+}
+
+impl Excess {
+    const NONE: Self = Self {
+        margin: 0.0,
+        range: JointVector::ZERO,
+        rate: JointVector::ZERO,
+        voltage: JointVector::ZERO,
+        clearance: 0.0,
+        is_out_of_reach: false,
+    };
+
+    /// Whether no limit is exceeded further than in `other`.
+    fn is_within(&self, other: &Excess) -> bool {
+        let is_within = |ours: f64, theirs: f64| ours <= theirs * (1.0 + INCREASE_MAX);
+        let all_within = |ours: &JointVector, theirs: &JointVector| {
+            Joint::ALL.into_iter().all(|joint| is_within(ours[joint], theirs[joint]))
+        };
+        let margin_loss_max = if other.margin > 0.0 { MARGIN_LOSS_MAX } else { 0.0 };
+        self.margin <= other.margin + margin_loss_max
+            && all_within(&self.range, &other.range)
+            && all_within(&self.rate, &other.rate)
+            && all_within(&self.voltage, &other.voltage)
+            && is_within(self.clearance, other.clearance)
+            && (other.is_out_of_reach || !self.is_out_of_reach)
     }
 }

@@ -35,8 +35,9 @@ pub trait Gait {
     /// The modified half-step, at the newest knot where the gait is planned.
     fn walk(&self) -> &Walk;
 
-    /// Stops without being asked to by a request: the controller's own decision.
-    fn stop(&mut self, stance: Stance);
+    /// Stops. Planning is spread over the ticks of the next two knots, so that the stop takes effect within 20 ms.
+    /// Returns the number of half-steps that begin until the robot stands; the stand itself counts as one.
+    fn stop(&mut self, stance: Stance) -> u64;
 
     /// Whether the robot can walk again after a stop.
     fn can_restart(&self) -> bool;

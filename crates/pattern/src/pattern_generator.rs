@@ -224,8 +224,12 @@ impl Gait for PatternGenerator {
         self.plan.walk()
     }
 
-    fn stop(&mut self, stance: Stance) {
-        self.set_goal_soon(Goal::Stand(stance));
+    fn stop(&mut self, stance: Stance) -> u64 {
+        let goal = Goal::Stand(stance);
+        self.set_goal_soon(goal);
+        let mut stopping = self.gait_state();
+        stopping.set_goal(goal);
+        u64::from(stopping.half_steps_to_goal())
     }
 
     fn can_restart(&self) -> bool {

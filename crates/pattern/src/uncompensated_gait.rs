@@ -89,8 +89,9 @@ impl Gait for UncompensatedGait {
         &self.walk
     }
 
-    fn stop(&mut self, stance: Stance) {
+    fn stop(&mut self, stance: Stance) -> u64 {
         self.set_goal(Goal::Stand(stance));
+        u64::from(!self.has_stopped())
     }
 
     fn can_restart(&self) -> bool {

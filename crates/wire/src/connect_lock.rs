@@ -4,11 +4,15 @@
 //! knows that no other process is halfway: whatever is incomplete was left by a dead process. The operating system
 //! releases the lock of a process that dies.
 
-use std::fs::{DirBuilder, File, OpenOptions, TryLockError};
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Error, ErrorKind};
-use std::os::unix::fs::{DirBuilderExt, MetadataExt};
+use std::os::unix::fs::{MetadataExt, OpenOptionsExt};
 use std::path::Path;
 use std::time::{Duration, Instant};
+
+use rustix::fs::OFlags;
+
+use crate::runtime_folder;
 
 /// Longest wait for the lock: longer than several other processes take to connect.
 const TIMEOUT: Duration = Duration::from_secs(20);
@@ -24,10 +28,12 @@ pub(crate) struct ConnectLock {
 }
 
 impl ConnectLock {
-    /// Waits for the lock of the instance whose files lie in `folder`, which is created if need be.
+    /// Waits for the lock of the instance whose files lie in `folder`, which is created if need be, with the folder that
+    /// it lies in.
     ///
     /// # Errors
-    /// The folder or the lock file cannot be created, or another process holds the lock for too long.
+    /// The folder or the lock file cannot be created or is not this user's alone, or another process holds the lock for
+    /// too long.
     pub(crate) fn acquire(folder: &Path) -> Result<Self, Error> {
         let began = Instant::now();
         loop {
@@ -41,11 +47,18 @@ impl ConnectLock {
     }
 
     fn try_acquire(folder: &Path) -> Result<Option<Self>, Error> {
-        DirBuilder::new().recursive(true).mode(0o700).create(folder)?;
-        let path = folder.join(FILE);
         // The holder of the lock may remove the whole folder.
         let removed = |error: Error| if error.kind() == ErrorKind::NotFound { Ok(None) } else { Err(error) };
-        let lock = match OpenOptions::new().create(true).truncate(false).write(true).open(&path) {
+        if let Some(user) = folder.parent() {
+            runtime_folder::create(user)?;
+        }
+        if let Err(error) = runtime_folder::create(folder) {
+            return removed(error);
+        }
+        let path = folder.join(FILE);
+        let mut options = OpenOptions::new();
+        options.create(true).truncate(false).write(true).mode(0o600).custom_flags(OFlags::NOFOLLOW.bits() as i32);
+        let lock = match options.open(&path) {
             Ok(file) => file,
             Err(error) => return removed(error),
         };

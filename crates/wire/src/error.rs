@@ -57,7 +57,7 @@ pub enum ConnectError {
     UsedUp {
         /// The service's full name.
         service: String,
-        /// NumberType of writers that were killed.
+        /// Number of writers that were killed.
         writers: u64,
     },
     /// The memory of the instance could not be used.

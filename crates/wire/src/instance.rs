@@ -11,6 +11,7 @@ use iceoryx2::prelude::{
 };
 
 use crate::connect_lock::ConnectLock;
+use crate::runtime_folder;
 use crate::{ConnectError, DEFAULT_RATE_HZ, Ipc, PROTOCOL};
 
 /// Folder of POSIX shared memory on Linux.
@@ -65,8 +66,7 @@ impl Instance {
     /// The name is not usable, or the path of the temporary folder is too long.
     pub fn new(name: &str) -> Result<Self, ConnectError> {
         let name: InstanceName = name.parse()?;
-        let user = rustix::process::getuid().as_raw();
-        let root = std::env::temp_dir().join(format!("halfstep-{user}")).join(name.as_str());
+        let root = runtime_folder::of_user().join(name.as_str());
 
         // Not read from a file: all processes of an instance must agree, wherever they were started.
         let mut config = Config::default();
@@ -75,9 +75,10 @@ impl Instance {
             what: root.display().to_string(),
             cause: format!("{cause:?}"),
         };
-        // A dot cannot be part of a name, so that no instance's files begin like another's.
-        config.global.prefix =
-            FileName::new(format!("halfstep.{name}.").as_bytes()).map_err(|cause| no_path(&cause))?;
+        // A dot cannot be part of a name, so that no instance's files begin like another's. An instance of the same name
+        // of another user, or in another folder, is another one.
+        let prefix = format!("halfstep.{:016x}.{name}.", fnv_1a(root.as_os_str().as_encoded_bytes()));
+        config.global.prefix = FileName::new(prefix.as_bytes()).map_err(|cause| no_path(&cause))?;
         config.global.set_root_path(&Path::new(root.as_os_str().as_encoded_bytes()).map_err(|cause| no_path(&cause))?);
         Ok(Self { name, protocol: PROTOCOL, rate_hz: DEFAULT_RATE_HZ, root, config })
     }
@@ -91,6 +92,16 @@ impl Instance {
     /// [`DEFAULT_RATE_HZ`].
     pub fn with_rate_hz(self, rate_hz: u32) -> Self {
         Self { rate_hz, ..self }
+    }
+
+    /// The folder of the instance's files.
+    pub fn folder(&self) -> &std::path::Path {
+        &self.root
+    }
+
+    /// What the names of the instance's files in shared memory begin with.
+    pub fn prefix(&self) -> String {
+        self.config.global.prefix.to_string()
     }
 
     /// The instance's name.
@@ -190,6 +201,11 @@ impl Drop for Leftovers {
     }
 }
 
+/// The FNV-1a hash of some bytes, 64 bits.
+fn fnv_1a(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
+}
+
 /// The result of a removal: what is already gone needs none.
 fn removed(result: std::io::Result<()>) -> std::io::Result<()> {
     match result {
@@ -207,6 +223,13 @@ fn silence_log() {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_hash_is_fnv_1a() {
+        // Vectors of the draft-eastlake-fnv.
+        assert_eq!(fnv_1a(b""), 0xcbf2_9ce4_8422_2325);
+        assert_eq!(fnv_1a(b"foobar"), 0x8594_4171_f739_67e8);
+    }
 
     #[test]
     fn a_bad_name_is_refused_with_what_is_wrong_and_what_would_be_right() {

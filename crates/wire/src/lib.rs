@@ -41,8 +41,9 @@
 //! [`WRITER_SLOTS`] slots: keys 0, 1, 2, … of type `u64`, each with one message. A writer takes the first free slot, a
 //! reader reads the highest slot that was ever written. All slots are free again once both sides have disconnected.
 //!
-//! Files lie in `<temporary folder>/halfstep-<user id>/<instance>/` and `/dev/shm/halfstep.<instance>.*`, readable by
-//! the user alone. A clean exit leaves a few bytes there, a kill more; the next start cleans up after dead processes,
+//! Files lie in `<runtime folder>/halfstep-<user id>/<instance>/` and `/dev/shm/halfstep.<hash>.<instance>.*`, where
+//! the hash is that of the folder's path. The runtime folder is `$XDG_RUNTIME_DIR` or `/run/user/<user id>` if that
+//! belongs to the user alone, else `/tmp`. A folder that others own or may enter is refused. A clean exit leaves a few bytes there, a kill more; the next start cleans up after dead processes,
 //! and [`Instance::remove_leftovers`] removes everything once no process is connected. Processes connect one at a time,
 //! so that a process that is killed while connecting leaves no incomplete service for others to wait for.
 //!
@@ -62,6 +63,7 @@ mod ports;
 pub mod python;
 mod report;
 mod request;
+mod runtime_folder;
 mod service_contract;
 
 pub use error::{ConnectError, RequestError, TransportError};

@@ -89,6 +89,11 @@ pub struct Responder {
 }
 
 impl Responder {
+    /// Whether the operator still waits for the reply.
+    pub fn is_wanted(&self) -> bool {
+        self.request.is_connected()
+    }
+
     /// Sends the reply; `false` if it could not be delivered because the operator has disconnected.
     pub fn reply(self, reply: &ReplyMessage) -> bool {
         self.request.send_copy(*reply).is_ok()

@@ -113,13 +113,20 @@ impl<'a> ServiceContract<'a> {
     /// Attempts until success, a permanent obstacle or the timeout.
     fn retry<T>(&self, attempt: impl Fn() -> Result<T, Obstacle>) -> Result<T, ConnectError> {
         let began = Instant::now();
+        // A single attempt may take longer than the timeout: iceoryx2 waits for others by itself.
+        let mut removed_at: Option<Instant> = None;
         loop {
             match attempt() {
                 Ok(value) => return Ok(value),
                 Err(Obstacle::Permanent(error)) => return Err(error),
                 Err(Obstacle::Temporary(error)) if began.elapsed() >= TIMEOUT => return Err(error),
-                Err(Obstacle::Incomplete(error)) if began.elapsed() >= TIMEOUT => return Err(error),
-                Err(Obstacle::Incomplete(_)) if began.elapsed() >= INCOMPLETE_TIMEOUT => self.remove_incomplete(),
+                Err(Obstacle::Incomplete(error)) if removed_at.is_some_and(|at| at.elapsed() >= TIMEOUT) => {
+                    return Err(error);
+                }
+                Err(Obstacle::Incomplete(_)) if began.elapsed() >= INCOMPLETE_TIMEOUT => {
+                    self.remove_incomplete();
+                    removed_at.get_or_insert_with(Instant::now);
+                }
                 Err(Obstacle::Temporary(_) | Obstacle::Incomplete(_)) => {}
             }
             std::thread::sleep(RETRY_INTERVAL);

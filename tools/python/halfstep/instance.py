@@ -6,7 +6,7 @@ import contextlib
 import fcntl
 import os
 import re
-import tempfile
+import stat
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -32,9 +32,9 @@ class Instance:
         if not re.fullmatch(r"[a-z0-9_-]{1,32}", name):
             raise BadName(f"instance name {name!r} is not usable; write 1 to 32 of a-z, 0-9, _ and -, e.g. 'robot-1'")
         self.name = name
-        self.root = Path(tempfile.gettempdir()) / f"halfstep-{os.getuid()}" / name
+        self.root = _runtime_folder() / name
         self.config = iox2.config.default()
-        self.config.global_cfg.prefix = iox2.FileName.new(f"halfstep.{name}.")
+        self.config.global_cfg.prefix = iox2.FileName.new(f"halfstep.{_fnv_1a(os.fsencode(self.root)):016x}.{name}.")
         self.config.global_cfg.root_path = iox2.Path.new(str(self.root))
 
     @contextlib.contextmanager
@@ -42,16 +42,36 @@ class Instance:
         """Processes of an instance connect one after the other: waits for the turn, and gives it back."""
         began = time.monotonic()
         while True:
-            self.root.mkdir(mode=0o700, parents=True, exist_ok=True)
-            with contextlib.suppress(FileNotFoundError, BlockingIOError), open(self.root / "turn", "w") as lock:
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                # Whoever had the turn may have removed the whole folder.
-                if os.stat(lock.name).st_ino == os.fstat(lock.fileno()).st_ino:
+            lock = self._lock()
+            if lock is not None:
+                try:
                     yield
-                    return
+                finally:
+                    os.close(lock)
+                return
             if time.monotonic() - began > _TURN_PATIENCE_S:
                 raise HalfstepError(f"another process does not finish connecting to instance {self.name!r}")
             time.sleep(_PAUSE_S)
+
+    def _lock(self) -> int | None:
+        """The locked file, or None if another process holds the lock."""
+        _create(self.root.parent)
+        lock = None
+        try:
+            _create(self.root)
+            # Not truncated, and never through a link.
+            lock = os.open(self.root / "turn", os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o600)
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            # Whoever had the turn may have removed the whole folder.
+            if os.stat(self.root / "turn").st_ino == os.fstat(lock).st_ino:
+                taken, lock = lock, None
+                return taken
+        except (FileNotFoundError, BlockingIOError):
+            pass
+        finally:
+            if lock is not None:
+                os.close(lock)
+        return None
 
     def join(self, role: str) -> Any:
         """A node of the instance; only whose turn it is may ask for it."""
@@ -67,6 +87,42 @@ class Instance:
     def service_name(self, service: str) -> Any:
         """What shared memory calls a service."""
         return iox2.ServiceName.new(f"halfstep/{self.name}/{service}")
+
+
+def _runtime_folder() -> Path:
+    """The folder of this user's instances; see `crates/wire/src/runtime_folder.rs`."""
+    given = os.environ.get("XDG_RUNTIME_DIR", "")
+    candidates = [given] if os.path.isabs(given) else []
+    for candidate in [*candidates, f"/run/user/{os.getuid()}"]:
+        with contextlib.suppress(OSError):
+            _check_own(Path(candidate))
+            return Path(candidate) / f"halfstep-{os.getuid()}"
+    return Path("/tmp") / f"halfstep-{os.getuid()}"
+
+
+def _create(folder: Path) -> None:
+    """Creates a folder that only this user may enter, or makes sure that it is one."""
+    with contextlib.suppress(FileExistsError):
+        folder.mkdir(mode=0o700)
+    _check_own(folder)
+
+
+def _check_own(folder: Path) -> None:
+    found = os.lstat(folder)
+    is_own = stat.S_ISDIR(found.st_mode) and found.st_uid == os.getuid() and not found.st_mode & 0o077
+    if not is_own:
+        raise PermissionError(
+            f"{folder} is not safe to use: it must be a folder that belongs to this user and that nobody else may "
+            "enter; remove it, or set XDG_RUNTIME_DIR to a folder of your own"
+        )
+
+
+def _fnv_1a(data: bytes) -> int:
+    """The FNV-1a hash, 64 bits."""
+    value = 0xCBF29CE484222325
+    for byte in data:
+        value = ((value ^ byte) * 0x100000001B3) & 0xFFFFFFFFFFFFFFFF
+    return value
 
 
 class Agreement:

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::Args;
+use interface::COMMAND_TIMEOUT_MAX;
 use node::cycle::Clock;
 use runtime::Rate;
 use wire::{Instance, InstanceName};
@@ -85,6 +86,15 @@ impl ChildOptions {
 
 /// Shortest duration that is accepted: a shorter one is a mistake.
 const DURATION_MIN: Duration = Duration::from_millis(1);
+
+/// How long a source may be silent, or hold control authority: at most as long as the controller lets it.
+pub(super) fn command_timeout(text: &str) -> Result<Duration, String> {
+    let timeout = duration(text)?;
+    if timeout > Duration::from_secs_f64(COMMAND_TIMEOUT_MAX) {
+        return Err(format!("must be at most {COMMAND_TIMEOUT_MAX}s"));
+    }
+    Ok(timeout)
+}
 
 pub(super) fn duration(text: &str) -> Result<Duration, String> {
     let duration = humantime::parse_duration(text).map_err(|error| format!("{error}; write e.g. 20s or 2min"))?;

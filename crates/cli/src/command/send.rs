@@ -10,7 +10,7 @@ use clap::Subcommand;
 use operator::reply_text::{ReplyJson, reply_text};
 use wire::OperatorPorts;
 
-use super::options::{InstanceOption, duration};
+use super::options::{InstanceOption, command_timeout};
 use crate::error::CliError;
 use crate::output::{print_json, print_line};
 use crate::status::Status;
@@ -22,7 +22,7 @@ pub(super) struct SendArgs {
     instance: InstanceOption,
     /// Hold control authority for this long, e.g. 5s: lower-priority sources are refused, and the robot stops when it
     /// expires unless another request has arrived [default: the request stays in effect until replaced]
-    #[arg(long = "for", value_name = "DURATION", value_parser = duration, global = true)]
+    #[arg(long = "for", value_name = "DURATION", value_parser = command_timeout, global = true)]
     duration: Option<Duration>,
     #[command(subcommand)]
     request: RequestKind,

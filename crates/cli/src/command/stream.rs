@@ -12,7 +12,7 @@ use operator::reply_text::{ReplyJson, reply_text};
 use operator::script::{Reader, ScriptError, TimedRequest};
 use serde::Serialize;
 
-use super::options::{InstanceOption, duration};
+use super::options::{InstanceOption, command_timeout};
 use crate::error::CliError;
 use crate::output::{print_json, print_line};
 use crate::status::Status;
@@ -34,7 +34,7 @@ pub(super) struct StreamArgs {
     file: String,
     /// Command timeout: the robot stops when the stream sends nothing for this long, e.g. 500ms [default: the
     /// controller's own, config/controller.toml; none in lockstep]
-    #[arg(long, value_name = "DURATION", value_parser = duration)]
+    #[arg(long, value_name = "DURATION", value_parser = command_timeout)]
     age_limit: Option<Duration>,
     /// Stop the walk at the end of the input: for a pipe from a program, which may end because it crashed
     #[arg(long)]

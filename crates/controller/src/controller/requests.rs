@@ -1,7 +1,7 @@
 //! Requests to the controller, between its ticks: decided at once, or by an admission job.
 
-use interface::{Fault, Intent, Reason, Reply, Request, Verdict};
-use pattern::Gait;
+use interface::{ControlAuthority, Fault, GaitChange, Intent, Reason, Reply, Request, Verdict};
+use pattern::{Gait, Stance};
 
 use super::Controller;
 use crate::admission_job::{AdmissionJob, Decision};
@@ -9,19 +9,25 @@ use crate::pattern::{Pattern, goal_of};
 use crate::recovery::Recovery;
 
 impl Controller {
-    /// Whether a request can be submitted: the one before has been replied to.
+    /// Whether any request can be submitted: the one before has been replied to.
     pub fn accepts_request(&self) -> bool {
         self.admission.is_idle()
     }
 
-    /// Submits a request, between two ticks, while [`accepts_request`](Self::accepts_request). The tick in which it is
-    /// decided returns the reply.
+    /// Whether an [urgent](Request::is_urgent) request can be submitted, which need not wait for the evaluation of
+    /// another one: at most one reply leaves with a tick.
+    pub fn accepts_urgent_request(&self) -> bool {
+        !self.admission.has_reply()
+    }
+
+    /// Submits a request, between two ticks, if the controller [accepts](Self::accepts_request) it. The tick in which it
+    /// is decided returns the reply. A stop takes effect at once, whatever is under evaluation.
     pub fn submit(&mut self, request: &Request) {
-        let changes_walk = !request.is_empty() && !request.is_stop();
-        let steps = request.intent.is_none_or(Intent::steps);
-        if let Err(authority) = self.arbiter.admit(request) {
-            let refused = self.refused(Reason::Outranked);
-            self.admission.reply(Reply { authority: Some(authority), ..refused });
+        let authority = self.arbiter.admit(request).err();
+        if request.is_stop() && self.state.latched().is_none() {
+            self.submit_stop(request, authority);
+        } else if authority.is_some() {
+            self.admission.reply(Reply { authority, ..self.refused(Reason::Outranked) });
         } else if request.intent == Some(Intent::Reset) {
             let can_reset = self.state.latched().is_none() || self.can_reset();
             if can_reset {
@@ -30,15 +36,30 @@ impl Controller {
             self.admission.reply(if can_reset { self.unchanged() } else { self.refused(Reason::FaultPersists) });
         } else if self.state.has_fallen() {
             self.admission.reply(self.refused(Reason::Fallen));
-        } else if self.state.latched().is_some() && changes_walk {
-            self.admission.reply(self.refused(Reason::Faulted));
-        } else if !self.pattern.gait().can_restart() && steps && !request.is_empty() {
-            self.admission.reply(self.refused(Reason::CannotRestart));
-        } else if request.is_empty() || self.state.latched().is_some() {
-            // A faulted robot stands already, or is about to.
+        } else if request.is_urgent() {
+            // A heartbeat; or a stop of a faulted robot, which stands already or is about to.
             self.admission.reply(self.unchanged());
+        } else if self.state.latched().is_some() {
+            self.admission.reply(self.refused(Reason::Faulted));
+        } else if !self.pattern.gait().can_restart() && request.intent.is_none_or(Intent::steps) {
+            self.admission.reply(self.refused(Reason::CannotRestart));
         } else {
             self.evaluate(request);
+        }
+    }
+
+    /// Stops at once, and evaluates the gait parameters of the same request unless another source outranks it.
+    fn submit_stop(&mut self, request: &Request, authority: Option<ControlAuthority>) {
+        let is_hold = request.intent == Some(Intent::Hold);
+        let effect_half_step = self.stop(if is_hold { Stance::Stride } else { Stance::Parallel });
+        let stopped = Reply { effect_half_step, ..self.unchanged() };
+        if request.gait == GaitChange::NONE {
+            self.admission.reply(stopped);
+        } else if authority.is_some() {
+            let (verdict, reason) = (Verdict::Limited, Reason::Outranked);
+            self.admission.reply(Reply { verdict, reason, authority, ..stopped });
+        } else {
+            self.evaluate(&Request { intent: None, ..*request });
         }
     }
 
@@ -51,7 +72,10 @@ impl Controller {
     /// Takes an evaluated job back, between two ticks. The controller adopts its plan if that is still one for the
     /// present; else the job has to be evaluated again.
     pub fn complete(&mut self, job: Box<AdmissionJob>) {
-        let Pattern::Planned(generator) = &mut self.pattern else { return self.admission.finish(job) };
+        let Pattern::Planned(generator) = &mut self.pattern else { return self.admission.finish(job, None) };
+        if self.admission.is_cancelled() {
+            return self.admission.finish(job, Some(generator));
+        }
         let refusal = match self.state.latched() {
             Some(Fault::Fallen) => Some(Reason::Fallen),
             Some(_) if !job.intent().is_some_and(Intent::is_stop) => Some(Reason::Faulted),
@@ -72,7 +96,7 @@ impl Controller {
             }
             self.admission.reply(decision.reply(self.state.intent()));
         }
-        self.admission.finish(job);
+        self.admission.finish(job, None);
     }
 
     /// Decides on a request that may change the walk: at once, or by a job where the walk is planned.
@@ -122,7 +146,7 @@ impl Controller {
     }
 
     /// The reply to a refused request.
-    fn refused(&self, reason: Reason) -> Reply {
+    pub(super) fn refused(&self, reason: Reason) -> Reply {
         let gait = self.pattern.gait();
         Reply::refused(reason, gait.half_step().index, gait.command(), Some(self.state.intent()))
     }

@@ -103,17 +103,11 @@ pub(crate) fn report(tick: u64) -> ReportMessage {
 
 /// Names of files in shared memory and in the temporary folder that belong to an instance.
 pub(crate) fn files_of(instance: &Instance) -> Vec<String> {
-    let mark = format!("halfstep.{}.", instance.name());
+    let mark = instance.prefix();
     let shared = std::fs::read_dir("/dev/shm").unwrap().flatten().map(|file| file.file_name());
     let mut files: Vec<String> =
         shared.map(|name| name.to_string_lossy().into_owned()).filter(|name| name.starts_with(&mark)).collect();
-    let users = std::fs::read_dir(std::env::temp_dir()).unwrap().flatten();
-    files.extend(
-        users
-            .filter(|folder| folder.file_name().to_string_lossy().starts_with("halfstep-"))
-            .map(|folder| folder.path().join(instance.name().as_str()))
-            .filter(|folder| folder.exists())
-            .map(|folder| folder.display().to_string()),
-    );
+    let folder = instance.folder();
+    files.extend(folder.exists().then(|| folder.display().to_string()));
     files
 }
