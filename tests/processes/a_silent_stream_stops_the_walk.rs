@@ -78,7 +78,7 @@ fn a_killed_stream_stops_the_walk_and_a_closed_one_does_not() {
 #[test]
 fn lower_priority_requests_are_refused_except_for_a_stop() {
     let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
-    let [_controller, _plant, mut stream] = walk(&command_line, "stream --age-limit 1h");
+    let [_controller, _plant, mut stream] = walk(&command_line, "stream --age-limit 60s");
     let send = |words: &str| -> Ended {
         let ended = command_line.start_here(&format!("send {words}")).finish();
         assert_eq!(ended.stderr, "");

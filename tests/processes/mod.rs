@@ -4,6 +4,7 @@
 mod a_disturbance_script_is_played;
 mod a_killed_run_can_be_read;
 mod a_recording_holds_the_run;
+mod a_recording_is_never_overwritten;
 mod a_replay_gives_the_same_bits;
 mod a_second_controller_is_refused;
 mod a_silent_stream_stops_the_walk;

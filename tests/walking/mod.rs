@@ -10,6 +10,7 @@ mod another_body_gets_its_own_nominal_and_walks;
 mod bad_measurements_never_reach_a_joint;
 mod every_mode_answers_every_request;
 mod holding_stands_on_both_feet;
+mod lying_sensors_are_noticed;
 mod reports_match_the_plan;
 mod same_inputs_same_bits;
 mod starts_and_stops_in_any_order;

@@ -56,6 +56,8 @@ pub struct Controller {
     feedback: DcmFeedback,
     landing: LandingCompliance,
     limiter: JointLimiter,
+    /// The setpoint of the last tick, if the robot is to follow it.
+    last_setpoint: Option<Setpoint>,
 }
 
 impl Controller {
@@ -116,6 +118,7 @@ impl Controller {
             feedback: DcmFeedback::new(mechanism, parameters.stabilizer.feedback),
             landing: LandingCompliance::new(mechanism, parameters.stabilizer.landing),
             limiter: JointLimiter::new(mechanism, &first),
+            last_setpoint: None,
             rest,
             mechanism: mechanism.clone(),
             tree,
@@ -156,6 +159,8 @@ impl Controller {
             self.latch(Fault::SetpointNotFinite);
         }
 
+        self.last_setpoint = Some(setpoint);
+
         // What was measured before a support change is in the frame of the other foot.
         let is_same_foot = self.pattern.gait().half_step().support == support;
         Tick {
@@ -194,16 +199,17 @@ impl Controller {
     /// Absorbs a measurement and returns the measured centre of mass; `None` without a valid measurement, and in the
     /// air.
     fn estimate(&mut self, measurement: Option<&Measurement>, dt: f64, faults: &mut Faults) -> Option<ComState> {
-        let valid = self.validator.update(measurement, dt, faults);
+        // A robot that has fallen is moved by others.
+        let followed = self.last_setpoint.filter(|_| self.state.plays_gait());
+        let valid = self.validator.update(measurement, followed.as_ref(), dt, faults);
         if self.validator.is_stale() && self.state.latched().is_none() {
             self.latch(Fault::MeasurementStale);
         }
-        let (measurement, up_in_trunk) = valid?;
         if self.validator.has_fallen() {
             faults.insert(Fault::Fallen);
             self.state.fall();
         }
-
+        let (measurement, up_in_trunk) = valid?;
         let gait = self.pattern.gait_mut();
         let support = gait.half_step().support;
         let measured = SupportFrameMeasurement::new(support, gait.walk().mirror(), measurement, up_in_trunk);

@@ -17,6 +17,7 @@ mod parameters;
 mod pattern;
 mod recovery;
 mod report;
+mod sensor_consistency;
 
 pub use admission_job::AdmissionJob;
 pub use command_arbiter::{ArbiterParameters, CommandArbiter};

@@ -1,8 +1,11 @@
-//! The measurement validator: rejects measurements that are stale, out of order, not finite or implausible.
+//! The measurement validator: rejects measurements that are stale, out of order, not finite, implausible, or
+//! inconsistent with each other and with the setpoint.
 
-use interface::{Fault, Faults, Measurement};
+use interface::{Fault, Faults, Measurement, Setpoint};
 use model::{GRAVITY, JointLimits, Mechanism, PerJoint, Wrench};
 use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::sensor_consistency::{ConsistencyParameters, Inconsistency, SensorConsistency};
 
 /// What counts as a valid measurement and as a fall.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +31,8 @@ pub struct ValidatorParameters {
     pub trunk_rate_jump_max: f64,
     /// Longest gap between two samples that the gyro can bridge (s).
     pub gyro_horizon: f64,
+    /// How far measurements may contradict each other and the setpoint.
+    pub consistency: ConsistencyParameters,
 }
 
 /// Deviation of a measured quaternion's norm from 1 up to which it is an orientation.
@@ -47,6 +52,7 @@ impl ValidatorParameters {
             orientation_jump_max: 0.175,
             trunk_rate_jump_max: 5.0,
             gyro_horizon: 0.25,
+            consistency: ConsistencyParameters { orientation_error_max: 0.012, tracking_error_max: 0.15 },
         }
     }
 }
@@ -64,8 +70,13 @@ pub struct MeasurementValidator {
     age: f64,
     /// The vertical (unit vector) and the angular rate (rad/s) of the last valid measurement, in trunk axes.
     trunk: Option<[Vector3<f64>; 2]>,
+    /// Time since that measurement (s).
+    trunk_age: f64,
     /// How long the trunk has been tilted beyond recovery (s).
     tilted: f64,
+    consistency: SensorConsistency,
+    /// Time since the last sample that was checked for consistency (s).
+    unchecked: f64,
 }
 
 impl MeasurementValidator {
@@ -78,20 +89,29 @@ impl MeasurementValidator {
             newest: None,
             age: 0.0,
             trunk: None,
+            trunk_age: 0.0,
             tilted: 0.0,
+            consistency: SensorConsistency::new(parameters.consistency),
+            unchecked: 0.0,
         }
     }
 
     /// Absorbs what arrived within the last `dt` seconds; a valid measurement is returned with the vertical (unit
     /// vector) in its trunk's axes.
+    ///
+    /// * `setpoint` – the last one, if the robot is to follow it: then measurements must be consistent with it and with
+    ///   each other
     pub fn update<'m>(
         &mut self,
         measurement: Option<&'m Measurement>,
+        setpoint: Option<&Setpoint>,
         dt: f64,
         faults: &mut Faults,
     ) -> Option<(&'m Measurement, Vector3<f64>)> {
         self.age += dt;
-        let valid = measurement.and_then(|measurement| match up_in_trunk(measurement) {
+        self.trunk_age += dt;
+        self.unchecked += dt;
+        let plausible = measurement.and_then(|measurement| match up_in_trunk(measurement) {
             // After the timeout, a plant that counts from the start again is a new one.
             _ if !self.is_stale() && self.newest.is_some_and(|newest| measurement.sample < newest) => {
                 faults.insert(Fault::MeasurementOutOfOrder);
@@ -109,17 +129,41 @@ impl MeasurementValidator {
                 None
             }
         });
-        if let Some((measurement, up)) = valid {
-            let is_tilted = up.z < self.parameters.tilt_max.cos();
-            self.tilted = if is_tilted { self.tilted + self.age } else { 0.0 };
-            self.trunk = Some([up, measurement.angular_rate]);
+        let mut valid = None;
+        if let Some((measurement, up)) = plausible {
+            let inconsistency = self.inconsistency(measurement, &up, setpoint);
+            if inconsistency != Some(Inconsistency::Orientation) {
+                let is_tilted = up.z < self.parameters.tilt_max.cos();
+                self.tilted = if is_tilted { self.tilted + self.trunk_age } else { 0.0 };
+                self.trunk = Some([up, measurement.angular_rate]);
+                self.trunk_age = 0.0;
+            }
             self.newest = Some(measurement.sample);
-            self.age = 0.0;
+            if inconsistency.is_none() {
+                self.age = 0.0;
+                valid = Some((measurement, up));
+            } else {
+                faults.insert(Fault::MeasurementImplausible);
+            }
         }
         if self.is_stale() {
             faults.insert(Fault::MeasurementStale);
         }
         valid
+    }
+
+    /// What of a plausible sample contradicts other values or the setpoint.
+    fn inconsistency(
+        &mut self,
+        measurement: &Measurement,
+        up: &Vector3<f64>,
+        setpoint: Option<&Setpoint>,
+    ) -> Option<Inconsistency> {
+        let dt = std::mem::take(&mut self.unchecked);
+        if setpoint.is_none() || dt >= self.parameters.gyro_horizon {
+            self.consistency.reset();
+        }
+        self.consistency.update(measurement, up, setpoint?, dt)
     }
 
     /// Whether some value is one that no working sensor of this robot produces.
@@ -144,8 +188,8 @@ impl MeasurementValidator {
     /// samples (`u̇ = u × ω` in trunk axes). After a gap beyond the gyro's horizon nothing can contradict.
     fn contradicts_gyro(&self, up: &Vector3<f64>, rate: &Vector3<f64>) -> bool {
         let ValidatorParameters { orientation_jump_max, trunk_rate_jump_max, gyro_horizon, .. } = self.parameters;
-        self.trunk.filter(|_| self.age < gyro_horizon).is_some_and(|[last_up, last_rate]| {
-            let expected = last_up + last_up.cross(&((last_rate + rate) * (self.age / 2.0)));
+        self.trunk.filter(|_| self.trunk_age < gyro_horizon).is_some_and(|[last_up, last_rate]| {
+            let expected = last_up + last_up.cross(&((last_rate + rate) * (self.trunk_age / 2.0)));
             up.dot(&expected.normalize()) < orientation_jump_max.cos()
                 || (rate - last_rate).amax() > trunk_rate_jump_max
         })
@@ -205,7 +249,7 @@ mod tests {
         let mut fallen_at = None;
         for tick in 0..200 {
             let time = tick as f64 * 1e-3;
-            assert!(validator.update(Some(&turned(tick, 6.0 * time, 6.0)), 1e-3, &mut faults).is_some());
+            assert!(validator.update(Some(&turned(tick, 6.0 * time, 6.0)), None, 1e-3, &mut faults).is_some());
             fallen_at = fallen_at.or(validator.has_fallen().then_some(time));
         }
         assert!((0.16..0.18).contains(&fallen_at.unwrap()), "{fallen_at:?}");
@@ -219,7 +263,7 @@ mod tests {
             let jumps = (50..60).contains(&tick);
             let mut faults = Faults::default();
             let measurement = turned(tick, if jumps { 1.57 } else { 0.1 }, 0.0);
-            assert_eq!(validator.update(Some(&measurement), 1e-3, &mut faults).is_some(), !jumps, "tick {tick}");
+            assert_eq!(validator.update(Some(&measurement), None, 1e-3, &mut faults).is_some(), !jumps, "tick {tick}");
             assert_eq!(faults.contains(Fault::MeasurementImplausible), jumps, "tick {tick}");
             assert!(!validator.has_fallen());
         }
@@ -228,10 +272,10 @@ mod tests {
     #[test]
     fn a_jump_of_the_angular_rate_is_implausible() {
         let (mut validator, mut faults) = (validator(), Faults::default());
-        assert!(validator.update(Some(&turned(0, 0.1, 0.0)), 1e-3, &mut faults).is_some());
-        assert!(validator.update(Some(&turned(1, 0.1, 17.0)), 1e-3, &mut faults).is_none());
+        assert!(validator.update(Some(&turned(0, 0.1, 0.0)), None, 1e-3, &mut faults).is_some());
+        assert!(validator.update(Some(&turned(1, 0.1, 17.0)), None, 1e-3, &mut faults).is_none());
         assert!(faults.contains(Fault::MeasurementImplausible));
-        assert!(validator.update(Some(&turned(2, 0.1, 0.1)), 1e-3, &mut faults).is_some());
+        assert!(validator.update(Some(&turned(2, 0.1, 0.1)), None, 1e-3, &mut faults).is_some());
     }
 
     /// A gap of 15 ms in a turn of 5 rad/s: 4.3° that the gyro explains.
@@ -241,7 +285,7 @@ mod tests {
         for tick in (0..10).chain(25..40) {
             let measurement = turned(tick, 0.8 - 5.0 * tick as f64 * 1e-3, -5.0);
             let dt = if tick == 25 { 0.016 } else { 1e-3 };
-            assert!(validator.update(Some(&measurement), dt, &mut faults).is_some(), "tick {tick}");
+            assert!(validator.update(Some(&measurement), None, dt, &mut faults).is_some(), "tick {tick}");
         }
     }
 }

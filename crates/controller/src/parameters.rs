@@ -9,6 +9,7 @@ use stabilizer::{FeedbackParameters, LandingParameters, ZmpParameters};
 use crate::command_arbiter::ArbiterParameters;
 use crate::measurement_validator::ValidatorParameters;
 use crate::pattern::Compensation;
+use crate::sensor_consistency::ConsistencyParameters;
 
 /// The parameters of the controller, read by its [`Config`] implementation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,6 +112,10 @@ fn validator(table: &Table) -> ValidatorParameters {
         orientation_jump_max: positive("orientation_jump_max_rad", default.orientation_jump_max),
         trunk_rate_jump_max: positive("trunk_rate_jump_max_rad_per_s", default.trunk_rate_jump_max),
         gyro_horizon: positive("gyro_horizon_s", default.gyro_horizon),
+        consistency: ConsistencyParameters {
+            orientation_error_max: positive("orientation_error_max_rad", default.consistency.orientation_error_max),
+            tracking_error_max: positive("tracking_error_max_rad", default.consistency.tracking_error_max),
+        },
     }
 }
 

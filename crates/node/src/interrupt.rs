@@ -1,9 +1,9 @@
-//! Ctrl-C and SIGTERM: remembered, so that the loops end cleanly.
+//! Ctrl-C, SIGTERM and SIGHUP: remembered, so that the loops end cleanly.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 
 /// Remembers whether a signal has asked the process to end.
 #[derive(Clone, Debug, Default)]
@@ -15,13 +15,13 @@ pub struct Interrupt(Arc<AtomicBool>);
 pub struct ListenError(std::io::Error);
 
 impl Interrupt {
-    /// Listens for Ctrl-C (SIGINT) and SIGTERM from now on.
+    /// Listens for Ctrl-C (SIGINT), SIGTERM and SIGHUP, the end of a terminal, from now on.
     ///
     /// # Errors
     /// The operating system refuses to deliver signals.
     pub fn listen() -> Result<Self, ListenError> {
         let interrupt = Self::default();
-        for signal in [SIGINT, SIGTERM] {
+        for signal in [SIGINT, SIGTERM, SIGHUP] {
             signal_hook::flag::register(signal, Arc::clone(&interrupt.0)).map_err(ListenError)?;
         }
         Ok(interrupt)

@@ -92,8 +92,8 @@ fn open<E: Copy + Send + 'static>(
 ) -> Result<(Recorder<E>, RecorderThread), NodeError> {
     let create = |(folder, file, origin): (&Path, &str, Provenance)| {
         std::fs::create_dir_all(folder).map_err(NodeError::file(folder))?;
-        // What is left of an earlier run there would be taken for a part of this one.
-        let _ = std::fs::remove_file(folder.join(record::RUN_FILE));
+        // It would be taken for a part of this run.
+        record::set_aside(&folder.join(record::RUN_FILE))?;
         RecordingWriter::create(&folder.join(file), &origin).map_err(NodeError::from)
     };
     let writer = RecordWriter { recording: to.map(create).transpose()?, result: Ok(()), rate, tick: 0 };

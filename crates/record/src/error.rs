@@ -23,6 +23,12 @@ pub enum RecordError {
         /// The reason given by the MCAP writer.
         cause: String,
     },
+    /// Another process writes to the file.
+    #[error("{file}: another process is recording into it; choose another folder (--out)", file = file.display())]
+    InUse {
+        /// Path of the file.
+        file: PathBuf,
+    },
     /// The file is not an MCAP file.
     #[error("{file}: not an MCAP file", file = file.display())]
     NotMcap {

@@ -25,6 +25,7 @@
 mod error;
 mod merge;
 mod message;
+mod new_file;
 mod provenance;
 mod reader;
 mod run_event;
@@ -34,6 +35,7 @@ mod writer;
 pub use error::RecordError;
 pub use merge::merge;
 pub use message::{TickMessage, TruthMessage};
+pub use new_file::set_aside;
 pub use provenance::{Metadata, Provenance};
 pub use reader::{Item, Recording, TimedEvent, files_of, provenance_of};
 pub use run_event::{Channel, RunEvent};

@@ -1,8 +1,9 @@
 //! Merging several recordings into one.
 
+use std::fs;
 use std::path::Path;
 
-use crate::{Item, Metadata, Provenance, RecordError, Recording, RecordingWriter, TimedEvent};
+use crate::{Item, Metadata, Provenance, RecordError, Recording, RecordingWriter, TimedEvent, set_aside};
 
 /// A recording whose next event has been read already.
 struct PeekedRecording {
@@ -17,9 +18,25 @@ struct PeekedRecording {
 /// Writes one recording with everything in `parts`, in order of time; for equal times, in the order of the parts. Of
 /// attachments with the same name the first is taken. Truncated parts are taken as far as they are valid.
 ///
+/// The recording appears under its name when all of it is written: whatever happens before, the parts are all there is.
+///
 /// # Errors
 /// A part cannot be read, or `whole` cannot be written.
 pub fn merge<P: AsRef<Path>>(parts: &[P], whole: &Path) -> Result<(), RecordError> {
+    let unfinished = whole.with_extension("mcap.unfinished");
+    // Left by a merge that was killed.
+    let _ = fs::remove_file(&unfinished);
+    let merged = write(parts, &unfinished).and_then(|()| {
+        set_aside(whole)?;
+        fs::rename(&unfinished, whole).map_err(RecordError::io(whole))
+    });
+    if merged.is_err() {
+        let _ = fs::remove_file(&unfinished);
+    }
+    merged
+}
+
+fn write<P: AsRef<Path>>(parts: &[P], whole: &Path) -> Result<(), RecordError> {
     let mut provenance = Provenance::default();
     let mut open = Vec::new();
     for part in parts {

@@ -62,8 +62,8 @@ impl TimedEvent {
     }
 }
 
-/// The files that hold a run: `run` itself if it is a file; in a folder [`RUN_FILE`], or without it the files of the
-/// processes.
+/// The files that hold a run: `run` itself if it is a file; in a folder the files of the processes, or without them
+/// [`RUN_FILE`], into which they are merged before they are removed.
 ///
 /// # Errors
 /// The folder holds none of them.
@@ -75,8 +75,8 @@ pub fn files_of(run: &Path) -> Result<Vec<PathBuf>, RecordError> {
     let parts = [CONTROLLER_FILE, PLANT_FILE].map(|name| run.join(name));
     let present: Vec<_> = parts.into_iter().filter(|part| part.exists()).collect();
     match (whole.exists(), present.is_empty()) {
-        (true, _) => Ok(vec![whole]),
-        (false, false) => Ok(present),
+        (_, false) => Ok(present),
+        (true, true) => Ok(vec![whole]),
         (false, true) => {
             let names = format!("{RUN_FILE}, or {CONTROLLER_FILE} and {PLANT_FILE}");
             Err(RecordError::Nothing { folder: run.to_owned(), names })
@@ -93,11 +93,12 @@ pub fn provenance_of(run: &Path) -> Result<Provenance, RecordError> {
     let mut provenance = Provenance::default();
     for file in files_of(run)? {
         let mut recording = Recording::open(&file)?;
-        // It comes before all events.
+        // We write it before all events; other programs may move it behind them.
         while let Some(item) = recording.next_item()? {
             match item {
                 Item::Metadata(metadata) => provenance.metadata.push(metadata),
                 Item::File(name, text) => provenance.attach(name, text),
+                Item::Event(_) if provenance.files.is_empty() => {}
                 Item::Event(_) => break,
             }
         }

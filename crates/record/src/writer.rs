@@ -2,13 +2,14 @@
 
 use std::borrow::Cow;
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use mcap::records::MessageHeader;
 use mcap::write::NoSeek;
 use mcap::{Attachment, WriteOptions, Writer};
 
+use crate::new_file;
 use crate::schema::{self, HEAD, MESSAGE_ENCODING, SCHEMA_ENCODING};
 use crate::{Channel, Metadata, Provenance, RecordError, RunEvent};
 
@@ -29,12 +30,13 @@ pub struct RecordingWriter {
 }
 
 impl RecordingWriter {
-    /// Creates or truncates the file, and writes the provenance of the run.
+    /// Creates the file, and writes the provenance of the run. An earlier recording of this name is kept under another
+    /// one; see [`set_aside`](crate::set_aside).
     ///
     /// # Errors
-    /// The file cannot be written.
+    /// The file cannot be written, or another process is writing to it.
     pub fn create(path: &Path, provenance: &Provenance) -> Result<Self, RecordError> {
-        let file = File::create(path).map_err(RecordError::io(path))?;
+        let file = new_file::create(path)?;
         let options = WriteOptions::new()
             .compression(None)
             .library(concat!("halfstep ", env!("CARGO_PKG_VERSION")))
@@ -115,12 +117,14 @@ impl RecordingWriter {
         self.mcap.flush().map_err(|cause| RecordError::unwritable(&self.path, cause))
     }
 
-    /// Writes the index by which other programs seek in the file.
+    /// Writes the index by which other programs seek in the file, and waits until all of it is on the disk.
     ///
     /// # Errors
     /// The file cannot be written.
     pub fn finish(mut self) -> Result<(), RecordError> {
         self.mcap.finish().map_err(|cause| RecordError::unwritable(&self.path, cause))?;
-        self.mcap.into_inner().into_inner().flush().map_err(RecordError::io(&self.path))
+        let file = self.mcap.into_inner().into_inner().into_inner();
+        let synced = file.map_err(|error| error.into_error()).and_then(|file| file.sync_all());
+        synced.map_err(RecordError::io(&self.path))
     }
 }

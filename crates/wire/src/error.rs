@@ -49,6 +49,14 @@ pub enum ConnectError {
         /// The instance's name.
         instance: String,
     },
+    /// No more operators can connect.
+    #[error("{operators} operators are connected to instance `{instance}`, as many as can be; end one of them")]
+    Full {
+        /// The instance's name.
+        instance: String,
+        /// How many operators can connect.
+        operators: usize,
+    },
     /// A reader has outlived more killed writers than the service has places for.
     #[error(
         "service `{service}` is used up: {writers} processes that wrote to it were killed while its reader went on; \

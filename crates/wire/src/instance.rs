@@ -1,6 +1,8 @@
 //! An instance: the name of one robot, and the memory that its processes share.
 
 use std::fmt;
+use std::fs::{DirEntry, Permissions};
+use std::os::unix::fs::PermissionsExt;
 use std::path::PathBuf;
 use std::str::FromStr;
 use std::sync::Once;
@@ -132,11 +134,8 @@ impl Instance {
             return Ok(());
         }
 
-        let prefix = self.config.global.prefix.to_string();
-        let files = std::fs::read_dir(SHARED_MEMORY).map_err(|cause| self.memory_error("read the files of", cause))?;
-        for file in files.flatten().filter(|file| file.file_name().as_encoded_bytes().starts_with(prefix.as_bytes())) {
-            removed(std::fs::remove_file(file.path()))
-                .map_err(|cause| self.memory_error("remove the files of", cause))?;
+        for file in self.files_in_shared_memory()? {
+            removed(std::fs::remove_file(file)).map_err(|cause| self.memory_error("remove the files of", cause))?;
         }
         removed(std::fs::remove_dir_all(&self.root)).map_err(|cause| self.memory_error("remove the files of", cause))
     }
@@ -166,13 +165,26 @@ impl Instance {
 
     /// Connects to the instance, and cleans up after processes that died in it. Needs the lock.
     pub(crate) fn open_node(&self, _lock: &ConnectLock, role: &str) -> Result<Node<Ipc>, ConnectError> {
-        NodeBuilder::new()
+        let node = NodeBuilder::new()
             .name(&NodeName::new(role).expect("a role is a short word"))
             .config(&self.config)
             // Signals belong to the process, not to a library.
             .signal_handling_mode(SignalHandlingMode::Disabled)
             .create()
-            .map_err(|cause| self.memory_error("join the instance", cause))
+            .map_err(|cause| self.memory_error("join the instance", cause))?;
+        // One of iceoryx2's own files is open to everyone.
+        for file in self.files_in_shared_memory()? {
+            let _ = std::fs::set_permissions(file, Permissions::from_mode(0o600));
+        }
+        Ok(node)
+    }
+
+    /// The instance's files in shared memory.
+    fn files_in_shared_memory(&self) -> Result<Vec<PathBuf>, ConnectError> {
+        let prefix = self.prefix();
+        let files = std::fs::read_dir(SHARED_MEMORY).map_err(|cause| self.memory_error("read the files of", cause))?;
+        let is_ours = |file: &DirEntry| file.file_name().as_encoded_bytes().starts_with(prefix.as_bytes());
+        Ok(files.flatten().filter(is_ours).map(|file| file.path()).collect())
     }
 
     pub(crate) fn service_name(&self, service: &str) -> ServiceName {

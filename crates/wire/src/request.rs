@@ -9,16 +9,17 @@ use iceoryx2::port::client::{Client, RequestSendError};
 use iceoryx2::port::server::Server;
 use iceoryx2::prelude::{BackpressureStrategy, MessagingPattern, Node, PortFactory as _};
 use iceoryx2::service::builder::request_response::Builder;
+use iceoryx2::service::port_factory::client::ClientCreateError;
 use iceoryx2::service::port_factory::request_response::PortFactory;
 use iceoryx2::service::port_factory::server::ServerCreateError;
 
 use crate::service_contract::ServiceContract;
 use crate::{ConnectError, Instance, Ipc, ReplyMessage, RequestError, RequestMessage, TransportError};
 
-/// Most operators at a time.
-const MAX_CLIENTS: usize = 8;
+/// Most operators at a time: more than anyone needs, so that a stop always finds a place.
+const MAX_CLIENTS: usize = 32;
 /// Most processes that may use the service at a time.
-const MAX_NODES: usize = 24;
+const MAX_NODES: usize = 64;
 /// Most unanswered requests of one operator.
 const MAX_UNANSWERED: usize = 256;
 
@@ -118,11 +119,15 @@ impl RequestClient {
     pub(crate) fn connect(instance: &Instance, node: &Node<Ipc>) -> Result<Self, ConnectError> {
         let contract = contract(instance);
         let service: RequestService = contract.open(|| builder(&contract, node).open())?;
-        let client = service
-            .client_builder()
-            .backpressure_strategy(BackpressureStrategy::DiscardData)
-            .create()
-            .map_err(|cause| contract.memory_error("connect to", cause))?;
+        let client =
+            service.client_builder().backpressure_strategy(BackpressureStrategy::DiscardData).create().map_err(
+                |cause| match cause {
+                    ClientCreateError::ExceedsMaxSupportedClients => {
+                        ConnectError::Full { instance: instance.name().to_string(), operators: MAX_CLIENTS }
+                    }
+                    cause => contract.memory_error("connect to", cause),
+                },
+            )?;
         let client = Self { instance: instance.name().to_string(), service, client };
         if client.controller_is_there() { Ok(client) } else { Err(instance.no_controller()) }
     }

@@ -136,7 +136,14 @@ impl WalkArgs {
     fn folder(&self) -> Result<PathBuf, CliError> {
         if let Some(folder) = &self.out {
             fs::create_dir_all(folder).map_err(CliError::file(folder))?;
-            return Ok(folder.clone());
+            return match files_of(folder) {
+                Ok(files) => Err(CliError::bad_input(format!(
+                    "{}: a run was recorded there already ({}); choose another folder, or remove it",
+                    folder.display(),
+                    files[0].file_name().unwrap_or_default().to_string_lossy()
+                ))),
+                Err(_) => Ok(folder.clone()),
+            };
         }
         let runs = Path::new("runs");
         fs::create_dir_all(runs).map_err(CliError::file(runs))?;
@@ -160,6 +167,11 @@ impl WalkArgs {
         steps: &[TimedRequest],
         rate: Rate,
     ) -> Result<Walking, CliError> {
+        // Else the script would be sent to the other one.
+        if OperatorPorts::connect(instance).is_ok() {
+            let instance = instance.name().to_string();
+            return Err(ConnectError::AlreadyRunning { role: "controller", instance }.into());
+        }
         let leftovers = instance.leftovers();
         let mut controller = Process::start("controller", self.arguments(instance, folder))?;
         let operator = connect_operator(instance, &mut controller)?;
@@ -206,7 +218,7 @@ impl WalkArgs {
         let whole = folder.join(RUN_FILE);
         merge(&parts, &whole)?;
         // The merged recording has everything that they have.
-        parts.iter().for_each(|part| drop(fs::remove_file(part)));
+        parts.iter().filter(|part| **part != whole).for_each(|part| drop(fs::remove_file(part)));
         let log = RunLog::read(&whole)?;
         let duration_s = rate.time(plant.ticks);
         let summary = WalkSummary {
