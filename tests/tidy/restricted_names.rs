@@ -51,6 +51,7 @@ pub const FILES: Restriction<'_> = Restriction {
         ("crates/synthesis/src/gait_recording.rs", "recorded leg shapes"),
         ("crates/wire/src/connect_lock.rs", "the lock file"),
         ("crates/wire/src/instance.rs", "files left behind by a killed process"),
+        ("crates/wire/src/runtime_folder.rs", "the folder of all instances"),
         ("crates/wire/src/service_contract.rs", "files left behind by a killed process"),
     ],
 };

@@ -1,5 +1,5 @@
-//! What is granted in a stand is what would be granted as the walk begins: gait parameters are not stored unchecked, and
-//! a start is not excused by what was stored.
+//! What is granted in a stand is what would be granted as the walk begins: gait parameters are not stored unchecked,
+//! and a start is not excused by what was stored.
 
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::{Walking, controller_parameters, plant_parameters};

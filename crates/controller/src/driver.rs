@@ -71,8 +71,8 @@ impl<W: AdmissionWorker> Driver<W> {
     ///
     /// * `dt` – its length (s)
     /// * `measurement` – the newest one, if there is one
-    /// * `next_request` – gives the request that is due, if any; called only if the controller can take one, with whether
-    ///   only an [urgent](Request::is_urgent) one can be taken
+    /// * `next_request` – gives the request that is due, if any; called only if the controller can take one, with
+    ///   whether only an [urgent](Request::is_urgent) one can be taken
     pub fn step(
         &mut self,
         dt: f64,

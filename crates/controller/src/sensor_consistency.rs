@@ -9,8 +9,8 @@
 //! * **Joint angle against setpoint**: the drives follow within a bound, so that an encoder that is off, stuck or
 //!   reversed is found, and so is a joint that does not follow.
 //!
-//! A sample that contradicts is rejected at once: for a while the plan goes on without it, which costs less than feedback
-//! of a wrong value. Only if that lasts does the robot stop.
+//! A sample that contradicts is rejected at once: for a while the plan goes on without it, which costs less than
+//! feedback of a wrong value. Only if that lasts does the robot stop.
 
 use interface::{Measurement, Setpoint};
 use model::{Joint, JointVector, PerJoint};

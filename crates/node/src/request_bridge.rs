@@ -71,7 +71,8 @@ pub struct Queues {
 const REQUESTS: usize = 8;
 /// How long the thread sleeps when there is nothing to do: a fraction of a period.
 const POLL_INTERVAL: Duration = Duration::from_micros(100);
-/// Most requests that are received before the loop gets some of them: as many as all operators can have without a reply.
+/// Most requests that are received before the loop gets some of them: as many as all operators can have without a
+/// reply.
 const RECEIVED_AT_ONCE: usize = 2048;
 /// Calls of [`RequestIo::receive`] between two checks for operators that have gone.
 const CHECK_INTERVAL: u32 = 100;

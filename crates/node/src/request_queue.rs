@@ -1,8 +1,8 @@
 //! Requests that wait for the tick before which they must not take effect, and their replies.
 //!
 //! A stop waits for nothing: it overtakes all others, there is always room for it, and what was requested before it and
-//! still waits is refused. A heartbeat overtakes requests that need an evaluation. A newer request of a source takes the
-//! place of an older one that it overrides. Requests of operators that have gone are dropped.
+//! still waits is refused. A heartbeat overtakes requests that need an evaluation. A newer request of a source takes
+//! the place of an older one that it overrides. Requests of operators that have gone are dropped.
 
 use controller::Tick;
 use interface::{Command, Intent, Lifetime, Reason, Reply, Request, Source, Verdict};

@@ -100,8 +100,8 @@ impl FeasibilityCheck {
         Self { parameters, mechanism: mechanism.clone(), proportions: PatternProportions::of(mechanism), dynamics }
     }
 
-    /// Advances a generator knot by knot and checks each, as long as `goes_on` says so of the generator and the number of
-    /// knots so far.
+    /// Advances a generator knot by knot and checks each, as long as `goes_on` says so of the generator and the number
+    /// of knots so far.
     pub fn play(
         &mut self,
         generator: &mut PatternGenerator,

@@ -28,8 +28,8 @@ pub(crate) struct ConnectLock {
 }
 
 impl ConnectLock {
-    /// Waits for the lock of the instance whose files lie in `folder`, which is created if need be, with the folder that
-    /// it lies in.
+    /// Waits for the lock of the instance whose files lie in `folder`, which is created if need be, with the folder
+    /// that it lies in.
     ///
     /// # Errors
     /// The folder or the lock file cannot be created or is not this user's alone, or another process holds the lock for

@@ -77,8 +77,8 @@ impl Instance {
             what: root.display().to_string(),
             cause: format!("{cause:?}"),
         };
-        // A dot cannot be part of a name, so that no instance's files begin like another's. An instance of the same name
-        // of another user, or in another folder, is another one.
+        // A dot cannot be part of a name, so that no instance's files begin like another's. An instance of the same
+        // name of another user, or in another folder, is another one.
         let prefix = format!("halfstep.{:016x}.{name}.", fnv_1a(root.as_os_str().as_encoded_bytes()));
         config.global.prefix = FileName::new(prefix.as_bytes()).map_err(|cause| no_path(&cause))?;
         config.global.set_root_path(&Path::new(root.as_os_str().as_encoded_bytes()).map_err(|cause| no_path(&cause))?);

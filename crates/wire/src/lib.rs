@@ -43,9 +43,10 @@
 //!
 //! Files lie in `<runtime folder>/halfstep-<user id>/<instance>/` and `/dev/shm/halfstep.<hash>.<instance>.*`, where
 //! the hash is that of the folder's path. The runtime folder is `$XDG_RUNTIME_DIR` or `/run/user/<user id>` if that
-//! belongs to the user alone, else `/tmp`. A folder that others own or may enter is refused. A clean exit leaves a few bytes there, a kill more; the next start cleans up after dead processes,
-//! and [`Instance::remove_leftovers`] removes everything once no process is connected. Processes connect one at a time,
-//! so that a process that is killed while connecting leaves no incomplete service for others to wait for.
+//! belongs to the user alone, else `/tmp`. A folder that others own or may enter is refused. A clean exit leaves a few
+//! bytes there, a kill more; the next start cleans up after dead processes, and [`Instance::remove_leftovers`] removes
+//! everything once no process is connected. Processes connect one at a time, so that a process that is killed while
+//! connecting leaves no incomplete service for others to wait for.
 //!
 //! # Costs
 //!

@@ -20,8 +20,8 @@ impl Controller {
         !self.admission.has_reply()
     }
 
-    /// Submits a request, between two ticks, if the controller [accepts](Self::accepts_request) it. The tick in which it
-    /// is decided returns the reply. A stop takes effect at once, whatever is under evaluation.
+    /// Submits a request, between two ticks, if the controller [accepts](Self::accepts_request) it. The tick in which
+    /// it is decided returns the reply. A stop takes effect at once, whatever is under evaluation.
     pub fn submit(&mut self, request: &Request) {
         let authority = self.arbiter.admit(request).err();
         if request.is_stop() && self.state.latched().is_none() {
