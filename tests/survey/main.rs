@@ -50,7 +50,7 @@ enum Survey {
     Pushes(pushes::Options),
     /// Other floors, masses, loads, slopes and delays than the controller believes
     Variations(variations::Options),
-    /// The paper's need against ours: leans, and what falls without
+    /// Compensation needed: the paper's leans and ours, and which walks fall without it
     Needs(needs::Options),
     /// The predicted least margin of half-steps against the measured one
     Margins(margins::Options),
@@ -61,7 +61,7 @@ enum Survey {
     /// ZMP is
     #[cfg(feature = "mujoco")]
     Agreement(agreement::Options),
-    /// What larger integration steps err, in our plant and in MuJoCo
+    /// Error of larger integration steps, in our plant and in MuJoCo
     #[cfg(feature = "mujoco")]
     Accuracy(accuracy::Options),
 }

@@ -2,8 +2,8 @@
 //! more, stands still on both feet, and walks on when asked to: side by side after a stop, in stride after a hold.
 
 use halfstep_tests::random;
-use halfstep_tests::walking::{Walking, controller_parameters};
-use interface::{GaitChange, Intent, Mode, Verdict};
+use halfstep_tests::walking::{PERIOD, Walking, controller_parameters};
+use interface::{Fault, GaitChange, Intent, Mode, Verdict};
 use rand::Rng;
 
 #[test]
@@ -55,5 +55,31 @@ fn stop_and_hold_lead_to_a_stand_from_any_moment_of_the_walk() {
             "seed {seed}: only at {}",
             report.report.half_step.index
         );
+    }
+}
+
+/// The step from a stand in stride to a parallel one is begun and taken back, at many moments: no joint is asked for a
+/// rate that it cannot have, and no motor for more than a fraction of its torque in between two ticks.
+#[test]
+fn a_start_that_is_taken_back_moves_nothing_suddenly() {
+    for after in [0.05, 0.2, 0.4, 0.6, 0.75] {
+        let mut walking = Walking::begin(4);
+        walking.walk(2.0);
+        walking.ask(GaitChange::default(), Some(Intent::Hold));
+        walking.walk(4.0);
+        walking.ask(GaitChange::default(), Some(Intent::Stop));
+        walking.walk(after);
+        let mut last = walking.ask(GaitChange::default(), Some(Intent::Hold)).setpoint;
+        for _ in 0..2000 {
+            let tick = walking.tick(None);
+            assert!(!tick.report.faults.contains(Fault::RateLimited), "after {after} s");
+            let rate = (tick.setpoint.angles - last.angles).max_abs() / PERIOD;
+            assert!(rate < 1.5, "after {after} s a joint moves at {rate} rad/s");
+            last = tick.setpoint;
+        }
+        walking.walk(2.0);
+        let tick = walking.tick(None);
+        assert_eq!(tick.report.mode, Mode::Holding, "after {after} s");
+        assert!(!walking.plant.truth().has_fallen());
     }
 }

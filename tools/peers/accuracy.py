@@ -1,4 +1,4 @@
-"""What larger integration steps err: our plant beside MuJoCo, each against its own walk in steps of 10 µs."""
+"""Error of larger integration steps: our plant and MuJoCo, each against its own walk in steps of 10 µs."""
 
 import json
 import subprocess

@@ -55,7 +55,10 @@ impl fmt::Display for WalkSummary {
             write!(out, "it fell at {time_s:.2} s in half-step {half_step}")?;
             match unavoidable_s {
                 Some(since) => {
-                    writeln!(out, ", unavoidably from {since:.2} s on: the capture point had left the soles")?;
+                    writeln!(
+                        out,
+                        ", and could not be saved from {since:.2} s on: the capture point had left the soles"
+                    )?;
                 }
                 None => writeln!(out, " with its capture point over the soles")?,
             }

@@ -45,7 +45,7 @@ pub struct PlantSummary {
 impl fmt::Display for ControllerSummary {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
         let Self { ticks, half_steps, mode, requests, deadline_misses, timing, log_gaps } = self;
-        let mode = if mode.is_empty() { "never began" } else { mode };
+        let mode = if mode.is_empty() { "never started" } else { mode };
         write!(
             out,
             "{ticks} ticks, {half_steps} half-steps, {mode}; {requests}; {deadline_misses} deadlines missed, \

@@ -19,6 +19,8 @@ pub struct CommandStream {
     operator: OperatorPorts,
     clock: ControllerClock,
     timeout: Option<Duration>,
+    /// The source of the stream's requests, and so of its heartbeats.
+    source: Source,
     /// The controller's tick when the stream last sent something; `None` before anything was granted, so that a stream
     /// without commands holds no authority.
     last_sent: Option<u64>,
@@ -43,7 +45,7 @@ const LEAD: Duration = Duration::from_millis(20);
 const HEARTBEATS_PER_TIMEOUT: u32 = 3;
 
 impl CommandStream {
-    /// Connects to an instance's controller. Without an timeout the controller's own applies.
+    /// Connects to an instance's controller. Without a timeout the controller's own applies.
     ///
     /// # Errors
     /// There is no controller.
@@ -52,7 +54,7 @@ impl CommandStream {
         let observer = ObserverPorts::connect(instance)?;
         let rate = Rate::clamped(observer.reports.rate_hz());
         let clock = ControllerClock { observer, started_at: None, now: 0 };
-        Ok(Self { operator, clock, timeout, last_sent: None, heartbeat: None, rate })
+        Ok(Self { operator, clock, timeout, source: Source::Script, last_sent: None, heartbeat: None, rate })
     }
 
     /// Reads the controller's clock and sends a heartbeat if it is time for one. Call it at least every few
@@ -95,6 +97,7 @@ impl CommandStream {
     /// The controller does not reply, or its reply is invalid.
     pub fn request(&mut self, request: &Request) -> Result<Reply, OperatorError> {
         let request = Request { lifetime: Lifetime::Streamed, timeout: self.timeout(), ..*request };
+        self.source = request.source;
         let reply = self.send(&request)?;
         if reply.verdict != Verdict::Refused {
             self.clock.update()?;
@@ -121,7 +124,7 @@ impl CommandStream {
     }
 
     fn empty_request(&self, lifetime: Lifetime) -> Request {
-        Request { lifetime, timeout: self.timeout(), ..Request::new(Source::Script) }
+        Request { lifetime, timeout: self.timeout(), ..Request::new(self.source) }
     }
 
     fn timeout(&self) -> Option<f64> {

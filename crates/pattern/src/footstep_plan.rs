@@ -107,7 +107,10 @@ impl FootstepPlan {
             GaitState::InPlace { .. } => {
                 Some(self.walk.force(&Command { turn, speed: speed.min(1.0), extension: 0.0 }))
             }
-            GaitState::Stopping { .. } | GaitState::Standing(_) | GaitState::Starting { .. } => None,
+            GaitState::Stopping { .. }
+            | GaitState::Standing(_)
+            | GaitState::Starting { .. }
+            | GaitState::Returning { .. } => None,
         }
     }
 

@@ -14,7 +14,8 @@
 //! | `Stopping(2)`      | `Walking`  | `InPlace(1)` | `Stopping(2, stance)`   |
 //! | `Stopping(1)`      | then       | then         | then                    |
 //! | `Standing`         | `Starting` | `Starting`   | same (*)                |
-//! | `Starting`         | then       | then         | `Standing` (*)          |
+//! | `Starting`         | then       | then         | `Returning` (*)         |
+//! | `Returning`        | `Starting` | `Starting`   | same (*)                |
 //!
 //! (*) From a stand in stride to a parallel one the robot starts: it needs one more half-step.
 //!
@@ -28,6 +29,7 @@
 //! | `Starting` to `Walk`      | the weight is shifted | `Walking`                              |
 //! | `Starting` to `InPlace`   | the weight is shifted | `InPlace(0)`                           |
 //! | `Starting` to `Stand`     | the weight is shifted | `Stopping(1)`                          |
+//! | `Returning`               | the weight is back    | `Standing`                             |
 
 use gait::Walk;
 use signal::smooth_step;
@@ -84,6 +86,13 @@ pub enum GaitState {
         /// The goal that follows.
         goal: Goal,
     },
+    /// A start was taken back: the weight returns to both feet.
+    Returning {
+        /// The position of the feet.
+        stance: Stance,
+        /// Knots until the weight would be shifted; all of them when it is back.
+        knots_left: u32,
+    },
 }
 
 /// The half-step in which a stop is commanded ends unchanged; the next one is the last.
@@ -109,12 +118,16 @@ impl GaitState {
                 InPlace { half_steps: self.half_steps_remaining().unwrap_or(HALF_STEPS_TO_STAND) - 1 }
             }
             (Standing(Stance::Stride), Goal::Stand(Stance::Parallel)) => start(Stance::Stride, WEIGHT_SHIFT_KNOTS),
-            (Starting { stance: Stance::Stride, knots_left, .. }, Goal::Stand(Stance::Parallel)) => {
-                start(Stance::Stride, knots_left)
+            (
+                Starting { stance: Stance::Stride, knots_left, .. } | Returning { stance: Stance::Stride, knots_left },
+                Goal::Stand(Stance::Parallel),
+            ) => start(Stance::Stride, knots_left),
+            (Standing(stance), Goal::Stand(_)) => Standing(stance),
+            (Starting { stance, knots_left, .. } | Returning { stance, knots_left }, Goal::Stand(_)) => {
+                Returning { stance, knots_left }
             }
-            (Standing(stance) | Starting { stance, .. }, Goal::Stand(_)) => Standing(stance),
             (Standing(stance), _) => start(stance, WEIGHT_SHIFT_KNOTS),
-            (Starting { stance, knots_left, .. }, _) => start(stance, knots_left),
+            (Starting { stance, knots_left, .. } | Returning { stance, knots_left }, _) => start(stance, knots_left),
         };
     }
 
@@ -123,7 +136,9 @@ impl GaitState {
         match self {
             GaitState::InPlace { half_steps } => Some(half_steps + 1),
             GaitState::Stopping { half_steps, .. } => Some(half_steps),
-            GaitState::Walking | GaitState::Standing(_) | GaitState::Starting { .. } => None,
+            GaitState::Walking | GaitState::Standing(_) | GaitState::Starting { .. } | GaitState::Returning { .. } => {
+                None
+            }
         }
     }
 
@@ -131,7 +146,7 @@ impl GaitState {
     pub fn half_steps_to_goal(self) -> u8 {
         match self {
             GaitState::InPlace { half_steps } | GaitState::Stopping { half_steps, .. } => half_steps,
-            GaitState::Walking | GaitState::Standing(_) | GaitState::Starting { .. } => 0,
+            GaitState::Walking | GaitState::Standing(_) | GaitState::Starting { .. } | GaitState::Returning { .. } => 0,
         }
     }
 
@@ -142,7 +157,7 @@ impl GaitState {
 
     /// Whether the robot stands on both feet.
     pub fn is_standing(self) -> bool {
-        matches!(self, GaitState::Standing(_) | GaitState::Starting { .. })
+        matches!(self, GaitState::Standing(_) | GaitState::Starting { .. } | GaitState::Returning { .. })
     }
 
     /// Advances by a knot, and `walk` with it unless the robot stands. Returns whether a half-step began.
@@ -162,6 +177,10 @@ impl GaitState {
             Starting { stance, knots_left: knots_left @ 2.., goal } => {
                 Starting { stance, knots_left: knots_left - 1, goal }
             }
+            Returning { stance, knots_left } if knots_left + 1 < WEIGHT_SHIFT_KNOTS => {
+                Returning { stance, knots_left: knots_left + 1 }
+            }
+            Returning { stance, .. } => Standing(stance),
             Starting { goal: Goal::Walk, .. } => Walking,
             Starting { goal: Goal::InPlace, .. } => InPlace { half_steps: 0 },
             Starting { goal: goal @ Goal::Stand(stance), .. } => Stopping { half_steps: 1, stance, goal },
@@ -174,7 +193,9 @@ impl GaitState {
     pub fn support_weight_share(self) -> f64 {
         match self {
             GaitState::Standing(_) => 0.5,
-            GaitState::Starting { .. } => 0.5 + 0.5 * smooth_step(self.weight_shift_progress()),
+            GaitState::Starting { .. } | GaitState::Returning { .. } => {
+                0.5 + 0.5 * smooth_step(self.weight_shift_progress())
+            }
             _ => 1.0,
         }
     }
@@ -183,7 +204,9 @@ impl GaitState {
     pub fn weight_shift_progress(self) -> f64 {
         match self {
             GaitState::Standing(_) => 0.0,
-            GaitState::Starting { knots_left, .. } => 1.0 - f64::from(knots_left) / f64::from(WEIGHT_SHIFT_KNOTS),
+            GaitState::Starting { knots_left, .. } | GaitState::Returning { knots_left, .. } => {
+                1.0 - f64::from(knots_left) / f64::from(WEIGHT_SHIFT_KNOTS)
+            }
             _ => 1.0,
         }
     }
@@ -239,6 +262,17 @@ mod tests {
         assert_eq!(after(state, STAND), state, "the weight shift does not begin anew");
         state = after(Standing(Stance::Parallel), STAND);
         assert_eq!(state, Standing(Stance::Parallel), "the feet are so already");
+    }
+
+    #[test]
+    fn start_that_is_taken_back_returns_by_the_way_it_came() {
+        let knots_left = WEIGHT_SHIFT_KNOTS - 3;
+        let starting = Starting { stance: Stance::Parallel, knots_left, goal: Goal::Walk };
+        let returning = after(starting, STAND);
+        assert_eq!(returning.support_weight_share(), starting.support_weight_share(), "nothing jumps");
+        assert_eq!(after(returning, Goal::Walk), starting, "and it may start again");
+        let last = Returning { stance: Stance::Parallel, knots_left: WEIGHT_SHIFT_KNOTS - 1 };
+        assert!(last.support_weight_share() - 0.5 < 1e-3, "then it stands");
     }
 
     #[test]

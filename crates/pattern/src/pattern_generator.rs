@@ -213,7 +213,9 @@ impl Gait for PatternGenerator {
     fn phase(&self) -> GaitPhase {
         match (self.gait_state(), self.in_double_support()) {
             (GaitState::Standing(stance), true) => GaitPhase::Standing(stance),
-            (GaitState::Standing(_) | GaitState::Stopping { .. }, _) => GaitPhase::Stopping,
+            (GaitState::Standing(_) | GaitState::Stopping { .. } | GaitState::Returning { .. }, _) => {
+                GaitPhase::Stopping
+            }
             (_, true) => GaitPhase::Starting,
             (GaitState::Walking | GaitState::Starting { .. }, false) => GaitPhase::Walking,
             (GaitState::InPlace { .. }, false) => GaitPhase::InPlace,

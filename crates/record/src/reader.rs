@@ -299,6 +299,8 @@ mod tests {
         assert_eq!((provenance.files.len(), provenance.file("both")), (3, Some(CONTROLLER_FILE)));
 
         crate::merge(&parts, &file(RUN_FILE)).unwrap();
+        assert_eq!(files_of(folder.path()).unwrap(), parts, "until they are removed");
+        parts.iter().for_each(|part| std::fs::remove_file(part).unwrap());
         assert_eq!(files_of(folder.path()).unwrap(), [file(RUN_FILE)]);
         assert_eq!(provenance_of(folder.path()).unwrap(), provenance);
         assert_eq!(provenance.entry(PLANT_FILE, "key"), Some("value"));

@@ -8,7 +8,7 @@ use crate::{Layout, NumberType, PROTOCOL, layouts};
 
 const HEAD: &str = r#""""The messages as they lie in shared memory.
 
-Written by `halfstep export python`; a test of the repository compares. Do not edit. What the fields mean stands in
+Written by `halfstep export python`; a test of the repository compares. Do not edit. The meaning of the fields is in
 `crates/wire/src/message/`; angles are in radians, joints in the order of the paper.
 """
 

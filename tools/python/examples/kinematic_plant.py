@@ -1,4 +1,4 @@
-"""A complete plant without physics: every joint is at once where it shall be, and the right foot carries everything.
+"""A complete plant without physics: every joint is at its setpoint at once, and the right foot carries everything.
 
 `halfstep controller --lockstep --for 5s` in one terminal, this in another.
 """

@@ -1,6 +1,6 @@
 """The messages as they lie in shared memory.
 
-Written by `halfstep export python`; a test of the repository compares. Do not edit. What the fields mean stands in
+Written by `halfstep export python`; a test of the repository compares. Do not edit. The meaning of the fields is in
 `crates/wire/src/message/`; angles are in radians, joints in the order of the paper.
 """
 
@@ -59,7 +59,7 @@ class Reason(IntEnum):
     VOLTAGE = 15  # a motor would need more than its supply voltage
     SOLE_CLEARANCE = 16  # the swing foot would come too close to the ground or to the other foot
     LEG_REACH = 17  # a leg would be overextended
-    SUPERSEDED = 18  # a newer request replaced it
+    SUPERSEDED = 18  # a stop or a newer request replaced it
     FALLEN = 19  # the robot has fallen: set it upright and send reset
     FAULTED = 20  # a fault is latched: send reset
     FAULT_PERSISTS = 21  # the fault persists: the robot must be upright and sending measurements

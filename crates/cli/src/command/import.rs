@@ -19,10 +19,10 @@ pub(super) struct ImportArgs {
     /// Joint map: URDF joints, soles and motors; see docs/import.md
     #[arg(long, value_name = "FILE")]
     map: PathBuf,
-    /// Folder to write mechanism.toml into, and controller.toml and plant.toml if it has none
+    /// Folder to write mechanism.toml into, and controller.toml, plant.toml and realtime.toml if it has none
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Folder to take controller.toml and plant.toml from
+    /// Folder to take controller.toml, plant.toml and realtime.toml from
     #[arg(long, value_name = "DIR", default_value = "config")]
     parameters: PathBuf,
 }
@@ -48,7 +48,7 @@ impl ImportArgs {
         fs::create_dir_all(&self.out).map_err(CliError::file(&self.out))?;
         fs::write(&mechanism_file, &imported.text).map_err(CliError::file(&mechanism_file))?;
         let mut written = vec![mechanism_file];
-        for name in ["controller.toml", "plant.toml"] {
+        for name in ["controller.toml", "plant.toml", "realtime.toml"] {
             let (from, to) = (self.parameters.join(name), self.out.join(name));
             if !to.exists() {
                 fs::copy(&from, &to).map_err(CliError::file(&from))?;
@@ -117,5 +117,5 @@ fn in_words(report: &ImportReport) -> String {
     for file in &report.written {
         text += &format!("written to {}\n", file.display());
     }
-    text + &format!("its half-step next, for example:\n  {}", report.synthesize)
+    text + &format!("make its half-step next, for example:\n  {}", report.synthesize)
 }

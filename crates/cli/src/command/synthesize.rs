@@ -203,7 +203,7 @@ fn in_words(report: &SynthesisReport) -> String {
     let range = |(min, max): (f64, f64)| format!("{:+.2}° to {:+.2}°", min.to_degrees(), max.to_degrees());
     format!(
         "residual |ZMP−O|  {:.4} mm after {} iterations\ntrunk pitch       {}\ntrunk roll        {}\n\
-         least knee bend   {:.1}°\nat the swap       {:.1e} rad and {:.1e} rad/s apart",
+         least knee bend   {:.1}°\nsupport change    {:.1e} rad and {:.1e} rad/s apart",
         report.residual * 1e3,
         report.iterations,
         range(report.trunk_pitch),

@@ -1,6 +1,6 @@
 //! `halfstep walk`: both processes, a script of commands, and pictures at the end.
 
-use interface::{Intent, Request, Source, Verdict};
+use interface::{Intent, Reason, Request, Source, Verdict};
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -283,7 +283,8 @@ impl Walking {
     /// Prints the replies to requests that were not granted as requested.
     fn print_objections(&mut self, progress: &Progress, rate: Rate) {
         while let Some((request, reply)) = self.script.next_reply() {
-            if reply.verdict != Verdict::Accepted {
+            // At its end the controller refuses what still waits for its tick.
+            if reply.verdict != Verdict::Accepted && reply.reason != Reason::ShuttingDown {
                 let time = rate.time(request.not_before);
                 progress.print(&format!("at {time:.2} s: {}", reply_text(&request, &reply)));
             }

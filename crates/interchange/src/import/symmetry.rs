@@ -114,7 +114,9 @@ impl Greatest {
                 up(*share, 1e4)
             ));
         } else if *share > ROUNDING {
-            changes.push(format!("made symmetric: no mass or moment by more than {share:.4} of it ({large})"));
+            changes.push(format!(
+                "made symmetric: no mass or moment of inertia changed by more than {share:.4} of its value ({large})"
+            ));
         }
     }
 }
