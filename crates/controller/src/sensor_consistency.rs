@@ -1,9 +1,9 @@
 //! Consistency of the sensors with each other and with what was commanded: finds sensors whose values are plausible one
 //! by one and yet wrong.
 //!
-//! * **Frozen**: a noisy sensor never repeats its value to the bit. While joints move, a group of values that stays the
-//!   same over [`FROZEN_MAX`] is frozen. At rest nothing is suspected: there a perfect sensor may repeat itself, and
-//!   nothing is lost by it.
+//! * **Frozen**: a noisy sensor never repeats its value to the bit. While joints move, a group of values that changed
+//!   with every sample before and stays the same over [`FROZEN_MAX`] is frozen, and so is the angle of a joint that is
+//!   commanded to move. At rest nothing is suspected: nothing is lost by it.
 //! * **Orientation against gyro**: the vertical that the gyro predicts, corrected slowly by the measured one, must stay
 //!   close to the measured one. This finds steps and drifts of the orientation, and bias, sign and scale of the gyro.
 //! * **Joint angle against setpoint**: the drives follow within a bound, so that an encoder that is off, stuck or
@@ -18,6 +18,8 @@ use nalgebra::Vector3;
 
 /// Longest time for which values may stay the same while the robot moves (s).
 const FROZEN_MAX: f64 = 0.02;
+/// Samples in a row that must differ before a group is known to change with every sample.
+const NOISY_AFTER: u32 = 100;
 /// Commanded rate above which a joint moves (rad/s).
 const MOVING: f64 = 0.2;
 /// Force above which a foot is loaded, so that its force changes (N).
@@ -54,6 +56,10 @@ pub(crate) struct SensorConsistency {
     frozen_joints: PerJoint<f64>,
     /// How long joint rates, right foot, left foot, orientation and angular rate have stayed the same (s).
     frozen: [f64; 5],
+    /// How many samples in a row these groups have changed.
+    changed: [u32; 5],
+    /// Which of them are known to change with every sample.
+    is_noisy: [bool; 5],
     /// The vertical in trunk axes that the gyro predicts.
     vertical: Option<Vector3<f64>>,
 }
@@ -61,7 +67,15 @@ pub(crate) struct SensorConsistency {
 impl SensorConsistency {
     /// A check that has seen no measurement.
     pub(crate) fn new(parameters: ConsistencyParameters) -> Self {
-        Self { parameters, last: None, frozen_joints: PerJoint::from_fn(|_| 0.0), frozen: [0.0; 5], vertical: None }
+        Self {
+            parameters,
+            last: None,
+            frozen_joints: PerJoint::from_fn(|_| 0.0),
+            frozen: [0.0; 5],
+            changed: [0; 5],
+            is_noisy: [false; 5],
+            vertical: None,
+        }
     }
 
     /// Checks a new sample, and returns what contradicts itself.
@@ -109,17 +123,20 @@ impl SensorConsistency {
             let is_same = moves(joint) && measurement.angles[joint] == last.angles[joint];
             is_frozen |= count(&mut self.frozen_joints[joint], is_same);
         }
-        let is_foot_same =
-            |foot: usize| measurement.feet[foot] == last.feet[foot] && measurement.feet[foot].force.z.abs() > LOADED;
         let same = [
             measurement.rates == last.rates,
-            is_foot_same(0),
-            is_foot_same(1),
+            measurement.feet[0] == last.feet[0],
+            measurement.feet[1] == last.feet[1],
             measurement.orientation == last.orientation,
             measurement.angular_rate == last.angular_rate,
         ];
-        for (time, is_same) in self.frozen.iter_mut().zip(same) {
-            is_frozen |= count(time, is_moving && is_same);
+        let is_loaded = measurement.feet.map(|foot| foot.force.z.abs() > LOADED);
+        let must_change = [true, is_loaded[0], is_loaded[1], true, true];
+        for (group, is_same) in same.into_iter().enumerate() {
+            self.changed[group] = if is_same { 0 } else { self.changed[group].saturating_add(1) };
+            self.is_noisy[group] |= self.changed[group] >= NOISY_AFTER;
+            let is_suspect = is_moving && is_same && must_change[group] && self.is_noisy[group];
+            is_frozen |= count(&mut self.frozen[group], is_suspect);
         }
         is_frozen
     }
