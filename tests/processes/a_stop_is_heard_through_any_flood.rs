@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use halfstep_tests::command_line::{CommandLine, Running};
-use interface::{GaitChange, Intent, Lifetime, Request, Source, Verdict};
+use interface::{GaitChange, Intent, Lifetime, Reason, Request, Source, Verdict};
 use wire::{Instance, OperatorPorts, PendingReply, RequestMessage};
 
 /// Nothing here takes so long.
@@ -78,6 +78,25 @@ fn a_stop_is_answered_and_walked_during_every_kind_of_flood() {
             }
             ends.store(true, Ordering::Relaxed);
         });
+    }
+}
+
+#[test]
+fn every_request_is_answered_however_many_arrive_at_once() {
+    let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
+    let _pair = pair(&command_line);
+    let instance = Instance::new(command_line.instance()).unwrap();
+    let operators: Vec<OperatorPorts> = (0..6).map(|_| OperatorPorts::connect(&instance).unwrap()).collect();
+    let invalid = RequestMessage { speed: f64::NAN, ..RequestMessage::from(&request(speed(1.0), None)) };
+    let sent: Vec<Vec<PendingReply>> = operators
+        .iter()
+        .map(|operator| (0..wire::MAX_UNANSWERED).map(|_| operator.requests.send(&invalid).unwrap()).collect())
+        .collect();
+    for (operator, pending) in operators.iter().zip(&sent) {
+        for (number, pending) in pending.iter().enumerate() {
+            let reply = operator.requests.wait(pending, SAFETY).unwrap_or_else(|error| panic!("{number}: {error}"));
+            assert_eq!(reply.checked().unwrap().reason, Reason::NotFinite);
+        }
     }
 }
 

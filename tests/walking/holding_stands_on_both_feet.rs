@@ -44,8 +44,12 @@ fn stop_and_hold_lead_to_a_stand_from_any_moment_of_the_walk() {
 
         // And it walks on.
         let report = walking.tick(Some((&GaitChange::default(), Some(Intent::Walk))));
-        // A start by an extreme command is limited where the walk by it was not.
-        assert_ne!(report.reply.expect("answered").verdict, Verdict::Refused, "seed {seed}");
+        // A start by an extreme command is limited where the walk by it was not: what is granted keeps the ZMP inside.
+        let answer = report.reply.expect("answered");
+        assert_ne!(answer.verdict, Verdict::Refused, "seed {seed}");
+        let predicted = answer.predicted_margin.expect("half-steps are predicted");
+        assert!(predicted >= controller_parameters().feasibility.margin_min, "seed {seed}: {predicted}");
+        assert_eq!(answer.verdict == Verdict::Limited, answer.active_limit.is_some(), "seed {seed}: {answer:?}");
         let half_steps = report.report.half_step.index;
         let walked = walking.walk(8.0);
         let report = walking.tick(None);

@@ -1,4 +1,5 @@
-//! An admission job: what of a request can be granted, found by simulating the coming half-steps beside the loop.
+//! An admission job: what of a request can be granted, found by simulating the coming half-steps beside the loop. A stop
+//! needs none.
 //!
 //! The controller opens it with a copy of its pattern generator. The driver takes it, evaluates it (at once in
 //! lockstep, on another thread in real time) and completes it. That takes milliseconds and allocates nothing.
@@ -106,9 +107,8 @@ impl AdmissionJob {
             let predicted_margin = Some(feasibility.margin).filter(|margin| margin.is_finite());
             Some(Decision { predicted_margin, ..decision })
         };
-        // A stop is granted whatever it costs; and there is nothing to search for when no limit is violated.
-        let is_stop = self.intent.is_some_and(Intent::is_stop);
-        if requested.verdict == Verdict::Refused || feasibility.violation.is_none() || is_stop {
+        // There is nothing to search for when no limit is violated.
+        if requested.verdict == Verdict::Refused || feasibility.violation.is_none() {
             return decided(requested, &feasibility);
         }
         let (mut base, mut unchanged) = (in_force, self.simulate(&in_force.into()).1);

@@ -117,7 +117,6 @@ impl CommandArbiter {
 
 #[cfg(test)]
 mod tests {
-
     use super::*;
 
     const DT: f64 = 1e-3;

@@ -2,8 +2,9 @@
 
 use crate::{GaitChange, Intent, Lifetime, Source};
 
-/// A request of an operator. It is atomic: it takes effect as a whole or not at all; only a stop takes effect at once,
-/// and from a source of lower priority than the one in control it is all that does.
+/// A request of an operator. It is atomic: it takes effect as a whole or not at all. The one exception is a stop, which
+/// takes effect before the gait parameters of the same request are evaluated. From a source that is outranked, only the
+/// stop is taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Request {
     /// The controller's tick before which it must not take effect; 0 is at once.

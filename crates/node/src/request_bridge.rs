@@ -12,7 +12,7 @@ use std::time::Duration;
 
 use crossbeam::queue::ArrayQueue;
 use runtime::Scheduling;
-use wire::{ReplyMessage, RequestMessage, RequestServer, Responder};
+use wire::{MAX_OPERATORS, MAX_UNANSWERED, ReplyMessage, RequestMessage, RequestServer, Responder};
 
 use crate::cycle::Clock;
 use crate::error::NodeError;
@@ -67,13 +67,12 @@ pub struct Queues {
     closed: AtomicBool,
 }
 
-/// Most requests that wait for the loop at once: the loop takes all of them within one period.
+/// Most requests that the loop takes at a time, so that their replies find room.
 const REQUESTS: usize = 8;
 /// How long the thread sleeps when there is nothing to do: a fraction of a period.
 const POLL_INTERVAL: Duration = Duration::from_micros(100);
-/// Most requests that are received before the loop gets some of them: as many as all operators can have without a
-/// reply.
-const RECEIVED_AT_ONCE: usize = 2048;
+/// Most requests that wait for the loop beside stops: as many as all operators can have without a reply.
+const BACKLOG: usize = MAX_OPERATORS * MAX_UNANSWERED;
 /// Calls of [`RequestIo::receive`] between two checks for operators that have gone.
 const CHECK_INTERVAL: u32 = 100;
 
@@ -111,7 +110,8 @@ impl RequestBridge {
         let queues = Arc::new(Queues {
             requests: ArrayQueue::new(REQUESTS),
             abandoned: ArrayQueue::new(REQUESTS),
-            replies: ArrayQueue::new(unanswered + REQUESTS),
+            // A stop may refuse all that wait, in a period in which others are refused on arrival.
+            replies: ArrayQueue::new(2 * unanswered),
             closed: AtomicBool::new(false),
         });
         let shared = Arc::clone(&queues);
@@ -126,10 +126,14 @@ impl RequestBridge {
         Ok(RequestBridge::Threaded { queues, thread })
     }
 
-    /// Receives what operators have sent, unless a thread does.
-    pub fn receive(&mut self) {
-        if let RequestBridge::Inline(io) = self {
-            io.receive();
+    /// Receives what operators have sent, unless a thread does. Returns the most requests to take now.
+    pub fn receive(&mut self) -> usize {
+        match self {
+            RequestBridge::Inline(io) => {
+                io.receive();
+                usize::MAX
+            }
+            RequestBridge::Threaded { .. } => REQUESTS,
         }
     }
 
@@ -188,13 +192,17 @@ impl RequestIo {
     /// Receives all requests that operators have sent. No reply leaves meanwhile, and an operator can have only so many
     /// requests without one: so each operator is served, however many requests another one sends.
     pub fn receive(&mut self) {
-        for _ in 0..RECEIVED_AT_ONCE {
+        for _ in 0..BACKLOG {
             // An operator whose memory cannot be reached has gone; the next call finds the others.
             let Some((message, answer)) = self.server.next_request().ok().flatten() else { break };
+            let is_stop = message.checked().is_ok_and(|request| request.is_stop());
+            if !is_stop && self.others.len() >= BACKLOG {
+                // Only an operator that does not wait for its replies can send more. Dropping the answer tells it so.
+                continue;
+            }
             let id = RequestId(self.last.0 + 1);
             self.last = id;
             self.unanswered.insert(id, answer);
-            let is_stop = message.checked().is_ok_and(|request| request.is_stop());
             let received = if is_stop { &mut self.stops } else { &mut self.others };
             received.push_back(IncomingRequest { id, message });
         }

@@ -90,8 +90,8 @@ impl RequestQueue {
     /// Takes in all requests that have arrived, refuses at once those that can never be granted, and drops those of
     /// operators that have gone.
     pub fn collect(&mut self, recorder: &mut Recorder<ControllerEvent>) {
-        self.bridge.receive();
-        while let Some(request) = self.bridge.next_request() {
+        for _ in 0..self.bridge.receive() {
+            let Some(request) = self.bridge.next_request() else { break };
             recorder.push(request.event());
             self.schedule(request, recorder);
         }

@@ -76,7 +76,7 @@ pub use layout::{Field, FieldValue, Layout, NumberType, WireLayout, layouts};
 pub use message::*;
 pub use ports::{ControllerPorts, ObserverPorts, OperatorPorts, PlantPorts};
 pub use report::{ReportPublisher, ReportSubscriber};
-pub use request::{PendingReply, RequestClient, RequestServer, Responder};
+pub use request::{MAX_OPERATORS, MAX_UNANSWERED, PendingReply, RequestClient, RequestServer, Responder};
 
 /// Version of all layouts and meanings. Processes of different versions refuse to connect.
 pub const PROTOCOL: u32 = 3;

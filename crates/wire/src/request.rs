@@ -17,11 +17,11 @@ use crate::service_contract::ServiceContract;
 use crate::{ConnectError, Instance, Ipc, ReplyMessage, RequestError, RequestMessage, TransportError};
 
 /// Most operators at a time: more than anyone needs, so that a stop always finds a place.
-const MAX_CLIENTS: usize = 32;
+pub const MAX_OPERATORS: usize = 32;
 /// Most processes that may use the service at a time.
 const MAX_NODES: usize = 64;
 /// Most unanswered requests of one operator.
-const MAX_UNANSWERED: usize = 256;
+pub const MAX_UNANSWERED: usize = 256;
 
 /// Time between two checks of a waiting operator for its reply.
 const POLL_INTERVAL: Duration = Duration::from_millis(1);
@@ -45,7 +45,7 @@ fn builder(contract: &ServiceContract, node: &Node<Ipc>) -> Builder<RequestMessa
         .max_response_buffer_size(1)
         .max_borrowed_responses_per_pending_response(1)
         .max_servers(1)
-        .max_clients(MAX_CLIENTS)
+        .max_clients(MAX_OPERATORS)
         .max_nodes(MAX_NODES)
 }
 
@@ -123,7 +123,7 @@ impl RequestClient {
             service.client_builder().backpressure_strategy(BackpressureStrategy::DiscardData).create().map_err(
                 |cause| match cause {
                     ClientCreateError::ExceedsMaxSupportedClients => {
-                        ConnectError::Full { instance: instance.name().to_string(), operators: MAX_CLIENTS }
+                        ConnectError::Full { instance: instance.name().to_string(), operators: MAX_OPERATORS }
                     }
                     cause => contract.memory_error("connect to", cause),
                 },

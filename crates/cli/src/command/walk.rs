@@ -98,6 +98,11 @@ impl WalkArgs {
         if self.plant == Engine::Mujoco {
             engine::mujoco()?;
         }
+        // Else the script would be sent to the other controller.
+        if self.instance.is_some() && OperatorPorts::connect(&instance).is_ok() {
+            let instance = instance.name().to_string();
+            return Err(ConnectError::AlreadyRunning { role: "controller", instance }.into());
+        }
         let folder = self.folder()?;
 
         let mut walking = self.start(&instance, &folder, &steps, rate)?;
@@ -167,11 +172,6 @@ impl WalkArgs {
         steps: &[TimedRequest],
         rate: Rate,
     ) -> Result<Walking, CliError> {
-        // Else the script would be sent to the other one.
-        if OperatorPorts::connect(instance).is_ok() {
-            let instance = instance.name().to_string();
-            return Err(ConnectError::AlreadyRunning { role: "controller", instance }.into());
-        }
         let leftovers = instance.leftovers();
         let mut controller = Process::start("controller", self.arguments(instance, folder))?;
         let operator = connect_operator(instance, &mut controller)?;

@@ -78,8 +78,8 @@ impl Controller {
         }
         let refusal = match self.state.latched() {
             Some(Fault::Fallen) => Some(Reason::Fallen),
-            Some(_) if !job.intent().is_some_and(Intent::is_stop) => Some(Reason::Faulted),
-            _ => None,
+            Some(_) => Some(Reason::Faulted),
+            None => None,
         };
         if let Some(reason) = refusal {
             generator.cancel_speed_override();
@@ -103,7 +103,10 @@ impl Controller {
     fn evaluate(&mut self, request: &Request) {
         match &mut self.pattern {
             Pattern::Planned(generator) => {
-                generator.override_speed(&request.gait);
+                // A robot that is to stop does not hurry before.
+                if self.state.intent().steps() {
+                    generator.override_speed(&request.gait);
+                }
                 self.admission.open(generator, request);
             }
             Pattern::Uncompensated(gait) => {
