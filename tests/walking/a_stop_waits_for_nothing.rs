@@ -140,6 +140,20 @@ fn of_an_outranked_stop_nothing_but_the_stop_is_taken() {
 }
 
 #[test]
+fn a_stop_of_a_faulted_robot_is_granted_to_everyone() {
+    let mut robot = Robot::walking();
+    robot.driver.worker.completes = true;
+    let stream = Request { lifetime: Lifetime::Streamed, timeout: Some(30.0), ..turn(3.0) };
+    robot.tick(Some(Request { source: Source::Teleop, ..stream }));
+    // No measurement arrives any more.
+    (0..2500).for_each(|_| _ = robot.driver.step(PERIOD, None, |_| None));
+    assert_eq!(robot.driver.controller.mode(), Mode::Faulted);
+    let stop = Request { source: Source::Script, ..intent(Intent::Stop) };
+    let reply = robot.driver.step(PERIOD, None, |_| Some(stop)).tick.reply.expect("it is decided at once");
+    assert_eq!(reply.verdict, Verdict::Accepted, "{reply:?}");
+}
+
+#[test]
 fn a_source_whose_request_is_evaluated_does_not_time_out() {
     let mut robot = Robot::walking();
     robot.tick(Some(Request { lifetime: Lifetime::Streamed, timeout: Some(0.1), ..turn(20.0) }));

@@ -26,7 +26,7 @@ impl Controller {
         let authority = self.arbiter.admit(request).err();
         if request.is_stop() && self.state.latched().is_none() {
             self.submit_stop(request, authority);
-        } else if authority.is_some() {
+        } else if authority.is_some() && !request.is_stop() {
             self.admission.reply(Reply { authority, ..self.refused(Reason::Outranked) });
         } else if request.intent == Some(Intent::Reset) {
             let can_reset = self.state.latched().is_none() || self.can_reset();
