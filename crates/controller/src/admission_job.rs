@@ -1,5 +1,5 @@
-//! An admission job: what of a request can be granted, found by simulating the coming half-steps beside the loop. A stop
-//! needs none.
+//! An admission job: what of a request can be granted, found by simulating the coming half-steps beside the loop. A
+//! stop needs none.
 //!
 //! The controller opens it with a copy of its pattern generator. The driver takes it, evaluates it (at once in
 //! lockstep, on another thread in real time) and completes it. That takes milliseconds and allocates nothing.
