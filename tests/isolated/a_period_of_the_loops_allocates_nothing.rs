@@ -83,10 +83,9 @@ fn walk(ticks: u64) -> [Happened; 2] {
             let mut plant = Plant::new(mechanism, &plant_parameters(), &start, timing.rate.period_s(), 1);
             let (mut recorder, recorder_thread) = recorder::of_plant(timing.clock, timing.rate, None).unwrap();
             let mut cycles = Cycles::new(timing, setpoints, "controller", Some(ticks), Interrupt::default());
-            let stands = Setpoint { angles: start.angles, ..Setpoint::default() };
             let step = |plant: &mut Plant, setpoint: &Setpoint| Ok(plant.step(setpoint));
             let happened = watch(|| {
-                let run = run_plant(&mut plant, step, stands, &mut cycles, &mut measurements, &mut recorder, false);
+                let run = run_plant(&mut plant, step, &mut cycles, &mut measurements, &mut recorder, false);
                 run.unwrap().ticks
             });
             drop(recorder);

@@ -94,6 +94,60 @@ fn a_spike_adds_its_size_to_the_named_values() {
 }
 
 #[test]
+fn a_drift_grows_from_nothing() {
+    assert_fault("kind = \"drift\"\nvalues = \"angles\"\njoint = \"left_knee\"\nsize_deg = 100", |faulty, good, _| {
+        let since = (good.sample - 40) as f64 * 1e-3;
+        let off = faulty.angles[Joint::LeftKnee] - good.angles[Joint::LeftKnee];
+        assert!((off - 100_f64.to_radians() * since).abs() < 1e-12, "{off} rad after {since} s");
+        let mut repaired = *faulty;
+        repaired.angles[Joint::LeftKnee] = good.angles[Joint::LeftKnee];
+        assert_eq!(repaired, *good);
+    });
+}
+
+#[test]
+fn a_saturated_sensor_stops_at_the_end_of_its_range() {
+    assert_fault("kind = \"saturate\"\nvalues = \"feet\"\nsize_n = 300", |faulty, good, _| {
+        for (faulty, good) in faulty.feet.iter().zip(&good.feet) {
+            assert_eq!(faulty.force.z, good.force.z.clamp(-300.0, 300.0));
+            assert_eq!((faulty.force.xy(), faulty.moment), (good.force.xy(), good.moment));
+        }
+        assert_eq!(Measurement { feet: good.feet, ..*faulty }, *good);
+    });
+}
+
+#[test]
+fn a_reversed_sensor_has_the_opposite_sign() {
+    assert_fault("kind = \"reverse\"\nvalues = \"rates\"", |faulty, good, _| {
+        assert_eq!(*faulty, Measurement { rates: -good.rates, ..*good });
+    });
+    assert_fault("kind = \"reverse\"\nvalues = \"orientation\"", |faulty, good, _| {
+        let product = UnitQuaternion::new_normalize(faulty.orientation * good.orientation);
+        assert!(product.angle() < 1e-9, "{} rad", product.angle());
+    });
+}
+
+#[test]
+fn swapped_sensors_exchange_right_and_left() {
+    assert_fault("kind = \"swap\"\nvalues = \"feet\"", |faulty, good, _| {
+        assert_eq!(*faulty, Measurement { feet: [good.feet[1], good.feet[0]], ..*good });
+    });
+    assert_fault("kind = \"swap\"\nvalues = \"angles\"\njoint = \"right_knee\"", |faulty, good, _| {
+        let mut expected = *good;
+        expected.angles[Joint::RightKnee] = good.angles[Joint::LeftKnee];
+        assert_eq!(*faulty, expected);
+    });
+}
+
+#[test]
+fn at_half_the_rate_every_sample_comes_twice() {
+    let faultless = samples("");
+    assert_fault("kind = \"half_rate\"", |faulty, good, _| {
+        assert_eq!(*faulty, faultless[(good.sample - good.sample % 2) as usize]);
+    });
+}
+
+#[test]
 fn a_drop_out_repeats_the_last_sample() {
     assert_fault("kind = \"drop_out\"", |faulty, _, before| assert_eq!(faulty, before));
 }

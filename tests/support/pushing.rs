@@ -29,7 +29,7 @@ impl Direction {
     pub const ALL: [Direction; 4] = [Direction::Forward, Direction::Back, Direction::ToSupport, Direction::ToSwing];
 
     /// In world axes, for a robot that bears on `support`.
-    fn in_world(self, walking: &Walking, support: Side) -> Vector3<f64> {
+    pub fn in_world(self, walking: &Walking, support: Side) -> Vector3<f64> {
         let ahead = walking.plant.truth().soles[support.index()].rotation * Vector3::x();
         let ahead = Vector3::new(ahead.x, ahead.y, 0.0).normalize();
         let left = Vector3::z().cross(&ahead);

@@ -10,6 +10,7 @@ mod accuracy;
 mod agreement;
 mod asked;
 mod cores;
+mod faults;
 mod grid;
 mod margins;
 #[cfg(feature = "mujoco")]
@@ -50,6 +51,8 @@ enum Survey {
     Pushes(pushes::Options),
     /// Other floors, masses, loads, slopes and delays than the controller believes
     Variations(variations::Options),
+    /// Wrong sensors: every kind, group and duration, walking and standing; and false alarms of clean walks
+    Faults(faults::Options),
     /// Compensation needed: the paper's leans and ours, and which walks fall without it
     Needs(needs::Options),
     /// The predicted least margin of half-steps against the measured one
@@ -74,6 +77,7 @@ fn main() -> ExitCode {
         Survey::StartStop(options) => start_stop::survey(options),
         Survey::Pushes(options) => pushes::survey(options),
         Survey::Variations(options) => variations::survey(options),
+        Survey::Faults(options) => faults::survey(options),
         Survey::Needs(options) => needs::survey(options),
         Survey::Margins(options) => margins::survey(options),
         #[cfg(feature = "mujoco")]

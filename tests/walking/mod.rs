@@ -15,6 +15,7 @@ mod reports_match_the_plan;
 mod same_inputs_same_bits;
 mod starts_and_stops_in_any_order;
 mod steps_in_place;
+mod the_controller_begins_where_the_robot_is;
 mod the_preview_keeps_the_zmp_in_the_sole;
 mod walks_by_every_extreme_of_what_is_granted;
 mod walks_on_after_pushes;

@@ -1,15 +1,16 @@
 //! The controller: one tick, read from top to bottom.
 
 mod requests;
+mod robot_posture;
 
 use std::sync::Arc;
 
 use dynamics::{Kinematics, ReferenceDynamics, Tree};
 use gait::{NominalTable, Start, Walk, WalkError};
-use interface::{AddedAngles, Fault, Faults, Intent, Measurement, Mode, Reason, Report, Setpoint};
-use model::{ComState, Mechanism, Motion};
+use interface::{AddedAngles, Fault, Faults, Intent, Measurement, Mode, Reason, Rejection, Report, Setpoint};
+use model::{ComState, JointVector, Mechanism, Motion};
 use nalgebra::Vector2;
-use pattern::{FeasibilityCheck, PatternGenerator, Stance};
+use pattern::{FeasibilityCheck, GaitPhase, PatternGenerator, Stance};
 use stabilizer::{
     BalanceState, ContactEstimate, DcmFeedback, LandingCompliance, SupportFrameMeasurement, ZmpEstimator, estimate_com,
 };
@@ -23,6 +24,7 @@ use crate::operating_state::OperatingState;
 use crate::parameters::Parameters;
 use crate::pattern::Pattern;
 use crate::report::{Tick, added_angles, to_physical};
+use crate::sensor_consistency::{Expectation, ExpectedSupport};
 
 /// With the measured ZMP this far inside a sole (m), the whole sole is on the ground.
 const FLAT_MARGIN: f64 = 0.005;
@@ -30,6 +32,8 @@ const FLAT_MARGIN: f64 = 0.005;
 const SUPPORT_CHANGE: f64 = 0.03;
 /// Least speed factor by which [`SUPPORT_CHANGE`] is measured.
 const SPEED_MIN: f64 = 0.1;
+/// Longest time over which the last estimate of the centre of mass is extrapolated (s).
+const EXTRAPOLATED_MAX: f64 = 0.02;
 /// Shortest period that a tick plays (s): rates are differences over it.
 const PERIOD_MIN: f64 = 1e-6;
 /// Longest period that a tick plays (s), shorter than any half-step: what a loop was late by beyond it is lost.
@@ -58,6 +62,12 @@ pub struct Controller {
     limiter: JointLimiter,
     /// The setpoint of the last tick, if the robot is to follow it.
     last_setpoint: Option<Setpoint>,
+    /// The last valid joint angles (rad).
+    measured_angles: Option<JointVector>,
+    /// The joint by which the robot was found in another posture than the controller begins in, while it holds it.
+    unexpected_posture: Option<Rejection>,
+    /// The last estimate of the centre of mass over this support foot, and its age (s).
+    last_com: Option<(ComState, f64)>,
 }
 
 impl Controller {
@@ -119,6 +129,9 @@ impl Controller {
             landing: LandingCompliance::new(mechanism, parameters.stabilizer.landing),
             limiter: JointLimiter::new(mechanism, &first),
             last_setpoint: None,
+            measured_angles: None,
+            unexpected_posture: None,
+            last_com: None,
             rest,
             mechanism: mechanism.clone(),
             tree,
@@ -143,8 +156,9 @@ impl Controller {
         // Where is the robot? A measurement answers the setpoint of the tick before: `reference` is still that one's.
         let com_measured = self.estimate(measurement, dt, &mut faults);
 
-        // What does balance command?
-        self.balance(com_measured, dt);
+        // What does balance command? No new sample is no reason to take the error for none.
+        let com = com_measured.or_else(|| self.extrapolate(dt));
+        self.balance(com, dt);
 
         // What does the gait command?
         let support = self.pattern.gait().half_step().support;
@@ -164,6 +178,7 @@ impl Controller {
         // What was measured before a support change is in the frame of the other foot.
         let is_same_foot = self.pattern.gait().half_step().support == support;
         Tick {
+            rejection: self.unexpected_posture.or(self.validator.rejection()),
             setpoint,
             report: self.report(&commanded, com_measured, is_same_foot, faults),
             command: self.pattern.gait().command(),
@@ -201,7 +216,9 @@ impl Controller {
     fn estimate(&mut self, measurement: Option<&Measurement>, dt: f64, faults: &mut Faults) -> Option<ComState> {
         // A robot that has fallen is moved by others.
         let followed = self.last_setpoint.filter(|_| self.state.plays_gait());
-        let valid = self.validator.update(measurement, followed.as_ref(), dt, faults);
+        let support = self.expected_support();
+        let expected = followed.as_ref().map(|setpoint| Expectation { setpoint, support });
+        let valid = self.validator.update(measurement, expected.as_ref(), dt, faults);
         if self.validator.is_stale() && self.state.latched().is_none() {
             self.latch(Fault::MeasurementStale);
         }
@@ -210,6 +227,10 @@ impl Controller {
             self.state.fall();
         }
         let (measurement, up_in_trunk) = valid?;
+        self.measured_angles = Some(measurement.angles);
+        if self.validator.has_found_robot() {
+            self.find_robot(&measurement.angles);
+        }
         let gait = self.pattern.gait_mut();
         let support = gait.half_step().support;
         let measured = SupportFrameMeasurement::new(support, gait.walk().mirror(), measurement, up_in_trunk);
@@ -218,6 +239,7 @@ impl Controller {
         if self.contact.zmp.is_none() {
             faults.insert(Fault::InTheAir);
             self.feedback.release();
+            self.last_com = None;
             return None;
         }
         // A sole that bears alone, and not on an edge, lies flat: it leans as the floor does.
@@ -225,16 +247,38 @@ impl Controller {
             gait.update_ground_slope(measured.up_over_sole(&self.kinematics).xy(), dt);
         }
         self.tilt = self.reference.tilt(&measured.up_in_trunk, gait.sensed_vertical());
-        Some(estimate_com(&self.tree, &self.kinematics, &measured))
+        let com = estimate_com(&self.tree, &self.kinematics, &measured);
+        self.last_com = Some((com, 0.0));
+        Some(com)
     }
 
-    /// Updates feedback, landing compliance and step adjustment with what was measured.
-    fn balance(&mut self, com_measured: Option<ComState>, dt: f64) {
+    /// The centre of mass now, by its last position and velocity; `None` when they are too old.
+    fn extrapolate(&mut self, dt: f64) -> Option<ComState> {
+        let (com, age) = self.last_com.as_mut()?;
+        *age += dt;
+        com.position += com.velocity * dt;
+        (*age < EXTRAPOLATED_MAX).then_some(*com)
+    }
+
+    /// What must carry the robot now; `None` where anything may.
+    fn expected_support(&self) -> Option<ExpectedSupport> {
+        let gait = self.pattern.gait();
+        if !self.follows_walk() || matches!(gait.phase(), GaitPhase::Standing(_) | GaitPhase::Starting) {
+            None
+        } else if gait.in_double_support() || self.is_changing_support() {
+            Some(ExpectedSupport::AnyFoot)
+        } else {
+            Some(ExpectedSupport::OneFoot(gait.half_step().support))
+        }
+    }
+
+    /// Updates feedback, landing compliance and step adjustment with the estimated centre of mass.
+    fn balance(&mut self, com: Option<ComState>, dt: f64) {
         let follows_walk = self.follows_walk();
         if !follows_walk {
             self.feedback.release();
         }
-        let com = com_measured.filter(|_| follows_walk);
+        let com = com.filter(|_| follows_walk);
         let in_double_support = self.pattern.gait().in_double_support();
         let is_changing_support = self.is_changing_support();
 
@@ -272,7 +316,7 @@ impl Controller {
 
     /// Moves on by a period and returns the commanded motion in support coordinates, feedback included.
     fn advance(&mut self, dt: f64) -> Motion {
-        if self.state.has_fallen() {
+        if self.state.holds_posture() {
             return Motion::default();
         }
         if let Some(recovery) = self.state.advance_recovery(dt) {
@@ -288,6 +332,7 @@ impl Controller {
             self.feedback.change_support(mirror);
             self.landing.change_support(mirror);
             self.zmp_estimator.change_support(mirror);
+            self.last_com = None;
         }
         let motion = gait.motion();
         self.reference.update(&self.tree, gait.walk().mirror(), &motion, gait.in_double_support());
@@ -297,7 +342,7 @@ impl Controller {
 
     /// Brings the commanded motion back to physical joints and through the limiter.
     fn limit(&mut self, commanded: &Motion, dt: f64, faults: &mut Faults) -> Setpoint {
-        if self.state.has_fallen() {
+        if self.state.holds_posture() {
             return self.limiter.hold();
         }
         let gait = self.pattern.gait();
@@ -309,7 +354,7 @@ impl Controller {
 
     fn report(&self, commanded: &Motion, com_measured: Option<ComState>, is_same_foot: bool, faults: Faults) -> Report {
         let gait = self.pattern.gait();
-        let has_plan = !self.state.has_fallen();
+        let has_plan = !self.state.holds_posture();
         to_physical(Report {
             mode: self.mode(),
             half_step: gait.half_step(),

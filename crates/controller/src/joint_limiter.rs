@@ -54,6 +54,11 @@ impl JointLimiter {
         setpoint
     }
 
+    /// Takes these angles for the last setpoint (rad): the joints are there.
+    pub fn start_at(&mut self, angles: &JointVector) {
+        self.last = *angles;
+    }
+
     /// The angles of the last setpoint, at rest.
     pub fn hold(&self) -> Setpoint {
         Setpoint { angles: self.last, rates: JointVector::ZERO, feed_forward: JointVector::ZERO }

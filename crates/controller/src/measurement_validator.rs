@@ -1,11 +1,11 @@
 //! The measurement validator: rejects measurements that are stale, out of order, not finite, implausible, or
 //! inconsistent with each other and with the setpoint.
 
-use interface::{Fault, Faults, Measurement, Setpoint};
-use model::{GRAVITY, JointLimits, Mechanism, PerJoint, Wrench};
+use interface::{Fault, Faults, Measurement, Rejection, Sensor};
+use model::{GRAVITY, Joint, JointLimits, Mechanism, PerJoint, Side};
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::sensor_consistency::{ConsistencyParameters, Inconsistency, SensorConsistency};
+use crate::sensor_consistency::{ConsistencyParameters, Expectation, SensorConsistency};
 
 /// What counts as a valid measurement and as a fall.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +52,13 @@ impl ValidatorParameters {
             orientation_jump_max: 0.175,
             trunk_rate_jump_max: 5.0,
             gyro_horizon: 0.25,
-            consistency: ConsistencyParameters { orientation_error_max: 0.012, tracking_error_max: 0.15 },
+            consistency: ConsistencyParameters {
+                orientation_error_max: 0.012,
+                tracking_error_max: 0.15,
+                tracking_bias_max: 0.02,
+                rate_error_max: 0.01,
+                load_share: [0.6, 1.5],
+            },
         }
     }
 }
@@ -77,73 +83,60 @@ pub struct MeasurementValidator {
     consistency: SensorConsistency,
     /// Time since the last sample that was checked for consistency (s).
     unchecked: f64,
+    /// Why the newest sample was rejected, if it was.
+    rejection: Option<Rejection>,
+    /// Whether the newest sample is the first one of a robot.
+    has_found_robot: bool,
 }
 
 impl MeasurementValidator {
     /// A validator that has seen no measurement; the timeout begins now.
     pub fn new(mechanism: &Mechanism, parameters: ValidatorParameters) -> Self {
+        let weight = mechanism.mass() * GRAVITY;
         Self {
             parameters,
             limits: PerJoint::from_fn(|joint| mechanism.links[joint].limits),
-            force_max: parameters.load_factor_max * mechanism.mass() * GRAVITY,
+            force_max: parameters.load_factor_max * weight,
             newest: None,
             age: 0.0,
             trunk: None,
             trunk_age: 0.0,
             tilted: 0.0,
-            consistency: SensorConsistency::new(parameters.consistency),
+            consistency: SensorConsistency::new(parameters.consistency, weight),
             unchecked: 0.0,
+            rejection: None,
+            has_found_robot: false,
         }
     }
 
     /// Absorbs what arrived within the last `dt` seconds; a valid measurement is returned with the vertical (unit
     /// vector) in its trunk's axes.
     ///
-    /// * `setpoint` – the last one, if the robot is to follow it: then measurements must be consistent with it and with
-    ///   each other
-    pub fn update<'m>(
+    /// * `expected` – what is commanded, if the robot is to follow it: then measurements must be consistent with it and
+    ///   with each other
+    pub(crate) fn update<'m>(
         &mut self,
         measurement: Option<&'m Measurement>,
-        setpoint: Option<&Setpoint>,
+        expected: Option<&Expectation>,
         dt: f64,
         faults: &mut Faults,
     ) -> Option<(&'m Measurement, Vector3<f64>)> {
         self.age += dt;
         self.trunk_age += dt;
         self.unchecked += dt;
-        let plausible = measurement.and_then(|measurement| match up_in_trunk(measurement) {
-            // After the timeout, a plant that counts from the start again is a new one.
-            _ if !self.is_stale() && self.newest.is_some_and(|newest| measurement.sample < newest) => {
-                faults.insert(Fault::MeasurementOutOfOrder);
-                None
-            }
-            // The same sample again adds nothing, but is no fault: the periods of the two processes drift.
-            _ if self.newest == Some(measurement.sample) => None,
-            Some(up) if self.is_implausible(measurement) || self.contradicts_gyro(&up, &measurement.angular_rate) => {
-                faults.insert(Fault::MeasurementImplausible);
-                None
-            }
-            Some(up) => Some((measurement, up)),
-            None => {
-                faults.insert(Fault::MeasurementNotFinite);
-                None
-            }
-        });
         let mut valid = None;
-        if let Some((measurement, up)) = plausible {
-            let inconsistency = self.inconsistency(measurement, &up, setpoint);
-            if inconsistency != Some(Inconsistency::Orientation) {
-                let is_tilted = up.z < self.parameters.tilt_max.cos();
-                self.tilted = if is_tilted { self.tilted + self.trunk_age } else { 0.0 };
-                self.trunk = Some([up, measurement.angular_rate]);
-                self.trunk_age = 0.0;
-            }
-            self.newest = Some(measurement.sample);
-            if inconsistency.is_none() {
-                self.age = 0.0;
-                valid = Some((measurement, up));
-            } else {
-                faults.insert(Fault::MeasurementImplausible);
+        // The same sample again adds nothing, but is no fault: the periods of the two processes drift.
+        if let Some(measurement) = measurement.filter(|measurement| self.newest != Some(measurement.sample)) {
+            match self.check(measurement, expected) {
+                Ok(up) => {
+                    self.age = 0.0;
+                    self.rejection = None;
+                    valid = Some((measurement, up));
+                }
+                Err(rejection) => {
+                    self.rejection = Some(rejection);
+                    faults.insert(rejection.fault);
+                }
             }
         }
         if self.is_stale() {
@@ -152,31 +145,78 @@ impl MeasurementValidator {
         valid
     }
 
-    /// What of a plausible sample contradicts other values or the setpoint.
-    fn inconsistency(
+    /// Whether the newest sample is the first one of a robot: the first ever, or the first after the timeout of one that
+    /// counts from the start again.
+    pub fn has_found_robot(&self) -> bool {
+        self.has_found_robot
+    }
+
+    /// Why the newest sample was rejected, if it was.
+    pub fn rejection(&self) -> Option<Rejection> {
+        self.rejection
+    }
+
+    /// Checks a new sample, and returns the vertical in its trunk's axes.
+    fn check(&mut self, measurement: &Measurement, expected: Option<&Expectation>) -> Result<Vector3<f64>, Rejection> {
+        let is_earlier = self.newest.is_some_and(|newest| measurement.sample < newest);
+        if is_earlier && !self.is_stale() {
+            return Err(Rejection { fault: Fault::MeasurementOutOfOrder, sensor: Sensor::All });
+        }
+        // After the timeout, a plant that counts from the start again is a new one.
+        let is_new_robot = self.newest.is_none() || is_earlier;
+        // It is where it is, whatever was commanded.
+        let expected = expected.filter(|_| !is_new_robot);
+        let up = up_in_trunk(measurement)?;
+        let implausible =
+            self.implausible(measurement).or_else(|| self.contradicts_gyro(&up, &measurement.angular_rate));
+        if let Some(sensor) = implausible {
+            return Err(Rejection { fault: Fault::MeasurementImplausible, sensor });
+        }
+        self.newest = Some(measurement.sample);
+        self.has_found_robot = is_new_robot;
+        let inconsistent = self.inconsistent(measurement, &up, expected);
+        if !matches!(inconsistent, Some(Rejection { sensor: Sensor::Orientation, .. })) {
+            let is_tilted = up.z < self.parameters.tilt_max.cos();
+            self.tilted = if is_tilted { self.tilted + self.trunk_age } else { 0.0 };
+            self.trunk = Some([up, measurement.angular_rate]);
+            self.trunk_age = 0.0;
+        }
+        inconsistent.map_or(Ok(up), Err)
+    }
+
+    /// What of a plausible sample contradicts other values or what is commanded.
+    fn inconsistent(
         &mut self,
         measurement: &Measurement,
         up: &Vector3<f64>,
-        setpoint: Option<&Setpoint>,
-    ) -> Option<Inconsistency> {
+        expected: Option<&Expectation>,
+    ) -> Option<Rejection> {
         let dt = std::mem::take(&mut self.unchecked);
-        if setpoint.is_none() || dt >= self.parameters.gyro_horizon {
+        if expected.is_none() || dt >= self.parameters.gyro_horizon {
             self.consistency.reset();
         }
-        self.consistency.update(measurement, up, setpoint?, dt)
+        self.consistency.update(measurement, up, expected?, dt)
     }
 
-    /// Whether some value is one that no working sensor of this robot produces.
-    fn is_implausible(&self, measurement: &Measurement) -> bool {
+    /// The sensor with a value that no working sensor of this robot produces, if there is one.
+    fn implausible(&self, measurement: &Measurement) -> Option<Sensor> {
         let ValidatorParameters { angle_tolerance, rate_factor_max, trunk_rate_max, .. } = self.parameters;
-        let limited = self.limits.iter().filter_map(|(joint, limits)| limits.map(|limits| (joint, limits)));
-        let joints = limited.into_iter().any(|(joint, limits)| {
-            measurement.angles[joint] < limits.angle_min - angle_tolerance
-                || measurement.angles[joint] > limits.angle_max + angle_tolerance
-                || measurement.rates[joint].abs() > rate_factor_max * limits.rate_max
-        });
-        let feet = measurement.feet.iter().any(|foot| foot.force.amax().max(foot.moment.amax()) > self.force_max);
-        joints || feet || measurement.angular_rate.amax() > trunk_rate_max
+        for joint in Joint::ALL {
+            let Some(limits) = &self.limits[joint] else { continue };
+            let range = limits.angle_min - angle_tolerance..=limits.angle_max + angle_tolerance;
+            if !range.contains(&measurement.angles[joint]) {
+                return Some(Sensor::JointAngle(joint));
+            } else if measurement.rates[joint].abs() > rate_factor_max * limits.rate_max {
+                return Some(Sensor::JointRate(joint));
+            }
+        }
+        for side in Side::BOTH {
+            let foot = &measurement.feet[side.index()];
+            if foot.force.amax().max(foot.moment.amax()) > self.force_max {
+                return Some(Sensor::Foot(side));
+            }
+        }
+        (measurement.angular_rate.amax() > trunk_rate_max).then_some(Sensor::AngularRate)
     }
 
     /// Whether no valid measurement has arrived for longer than the timeout.
@@ -186,13 +226,17 @@ impl MeasurementValidator {
 
     /// Whether the angular rate jumps, or the vertical is not where the last one turns to at the mean rate of both
     /// samples (`u̇ = u × ω` in trunk axes). After a gap beyond the gyro's horizon nothing can contradict.
-    fn contradicts_gyro(&self, up: &Vector3<f64>, rate: &Vector3<f64>) -> bool {
+    fn contradicts_gyro(&self, up: &Vector3<f64>, rate: &Vector3<f64>) -> Option<Sensor> {
         let ValidatorParameters { orientation_jump_max, trunk_rate_jump_max, gyro_horizon, .. } = self.parameters;
-        self.trunk.filter(|_| self.trunk_age < gyro_horizon).is_some_and(|[last_up, last_rate]| {
-            let expected = last_up + last_up.cross(&((last_rate + rate) * (self.trunk_age / 2.0)));
-            up.dot(&expected.normalize()) < orientation_jump_max.cos()
-                || (rate - last_rate).amax() > trunk_rate_jump_max
-        })
+        let [last_up, last_rate] = self.trunk.filter(|_| self.trunk_age < gyro_horizon)?;
+        let expected = last_up + last_up.cross(&((last_rate + rate) * (self.trunk_age / 2.0)));
+        if (rate - last_rate).amax() > trunk_rate_jump_max {
+            Some(Sensor::AngularRate)
+        } else if up.dot(&expected.normalize()) < orientation_jump_max.cos() {
+            Some(Sensor::Orientation)
+        } else {
+            None
+        }
     }
 
     /// Whether the trunk was within recovery at the last valid measurement.
@@ -207,13 +251,29 @@ impl MeasurementValidator {
 }
 
 /// The vertical in trunk axes, if every value is finite and the orientation is a rotation.
-fn up_in_trunk(measurement: &Measurement) -> Option<Vector3<f64>> {
-    let finite = measurement.angles.is_finite()
-        && measurement.rates.is_finite()
-        && measurement.feet.iter().all(Wrench::is_finite)
-        && measurement.angular_rate.iter().all(|rate| rate.is_finite());
+fn up_in_trunk(measurement: &Measurement) -> Result<Vector3<f64>, Rejection> {
+    let not_finite = Joint::ALL
+        .into_iter()
+        .find_map(|joint| {
+            let [angle, rate] = [measurement.angles[joint], measurement.rates[joint]].map(f64::is_finite);
+            match (angle, rate) {
+                (false, _) => Some(Sensor::JointAngle(joint)),
+                (_, false) => Some(Sensor::JointRate(joint)),
+                _ => None,
+            }
+        })
+        .or_else(|| {
+            let side = Side::BOTH.into_iter().find(|side| !measurement.feet[side.index()].is_finite())?;
+            Some(Sensor::Foot(side))
+        });
     let is_unit = (measurement.orientation.norm() - 1.0).abs() < NORM_TOLERANCE;
-    (finite && is_unit).then(|| UnitQuaternion::new_normalize(measurement.orientation).inverse() * Vector3::z())
+    let not_finite = not_finite
+        .or_else(|| (!is_unit).then_some(Sensor::Orientation))
+        .or_else(|| measurement.angular_rate.iter().any(|rate| !rate.is_finite()).then_some(Sensor::AngularRate));
+    match not_finite {
+        Some(sensor) => Err(Rejection { fault: Fault::MeasurementNotFinite, sensor }),
+        None => Ok(UnitQuaternion::new_normalize(measurement.orientation).inverse() * Vector3::z()),
+    }
 }
 
 #[cfg(test)]
@@ -235,7 +295,7 @@ mod tests {
             sample: tick,
             angles: JointVector::ZERO,
             rates: JointVector::ZERO,
-            feet: [Wrench::ZERO; 2],
+            feet: [model::Wrench::ZERO; 2],
             orientation: UnitQuaternion::from_axis_angle(&axis, angle).into_inner(),
             angular_rate: axis.into_inner() * rate,
             currents: JointVector::ZERO,

@@ -24,9 +24,12 @@ use crate::recovery::Recovery;
 enum Activity {
     /// The gait pattern is played.
     Gait,
-    /// After a fall: the joints hold.
-    Fallen,
-    /// After a fall and a reset: the joints return to a stand.
+    /// After a fall, or found in a posture that is none of the gait's: the joints hold.
+    HoldingPosture {
+        /// Whether the robot was found so, and not held so since a fall.
+        is_found: bool,
+    },
+    /// After a reset, or found near a stand: the joints move to the stand.
     Recovering(Recovery),
 }
 
@@ -63,7 +66,17 @@ impl OperatingState {
 
     /// Whether the robot has fallen and was not reset since.
     pub(crate) fn has_fallen(&self) -> bool {
-        matches!(self.activity, Activity::Fallen)
+        self.holds_posture() && self.latched == Some(Fault::Fallen)
+    }
+
+    /// Whether the joints hold a posture that is none of the gait's.
+    pub(crate) fn holds_posture(&self) -> bool {
+        matches!(self.activity, Activity::HoldingPosture { .. })
+    }
+
+    /// Whether the robot was found in the posture that it holds.
+    pub(crate) fn is_found(&self) -> bool {
+        matches!(self.activity, Activity::HoldingPosture { is_found: true })
     }
 
     /// Whether the gait pattern is played.
@@ -73,14 +86,22 @@ impl OperatingState {
 
     /// Latches a fall.
     pub(crate) fn fall(&mut self) {
-        self.activity = Activity::Fallen;
+        if !self.holds_posture() {
+            self.activity = Activity::HoldingPosture { is_found: false };
+        }
         self.latched = Some(Fault::Fallen);
     }
 
-    /// Latches another fault than a fall, and returns whether a walk has to be stopped because of it. After a fall
-    /// nothing changes.
+    /// Holds the posture in which the robot was found until a reset, and latches `fault` if none is latched.
+    pub(crate) fn hold_posture(&mut self, fault: Fault) {
+        self.activity = Activity::HoldingPosture { is_found: true };
+        self.latched = self.latched.or(Some(fault));
+    }
+
+    /// Latches another fault than a fall, and returns whether a walk has to be stopped because of it. While a posture
+    /// is held nothing changes.
     pub(crate) fn latch(&mut self, fault: Fault) -> bool {
-        if self.has_fallen() {
+        if self.holds_posture() {
             return false;
         }
         self.latched = Some(fault);
@@ -110,7 +131,8 @@ impl OperatingState {
     /// The mode to report while the gait is in `phase`.
     pub(crate) fn mode(&self, phase: GaitPhase) -> Mode {
         match (&self.activity, phase) {
-            (Activity::Fallen, _) => Mode::Fallen,
+            (Activity::HoldingPosture { .. }, _) if self.latched == Some(Fault::Fallen) => Mode::Fallen,
+            (Activity::HoldingPosture { .. }, _) => Mode::Faulted,
             (Activity::Recovering(_), _) => Mode::Starting,
             (Activity::Gait, GaitPhase::Standing(_)) if self.latched.is_some() => Mode::Faulted,
             (Activity::Gait, GaitPhase::Standing(Stance::Parallel)) => Mode::Standing,

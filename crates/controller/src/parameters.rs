@@ -115,6 +115,12 @@ fn validator(table: &Table) -> ValidatorParameters {
         consistency: ConsistencyParameters {
             orientation_error_max: positive("orientation_error_max_rad", default.consistency.orientation_error_max),
             tracking_error_max: positive("tracking_error_max_rad", default.consistency.tracking_error_max),
+            tracking_bias_max: positive("tracking_bias_max_rad", default.consistency.tracking_bias_max),
+            rate_error_max: positive("rate_error_max_rad", default.consistency.rate_error_max),
+            load_share: [
+                positive("load_share_min", default.consistency.load_share[0]),
+                positive("load_share_max", default.consistency.load_share[1]),
+            ],
         },
     }
 }

@@ -1,6 +1,6 @@
 //! What a tick returns, and how a report leaves the support coordinates of the controller.
 
-use interface::{AddedAngles, Command, Reply, Report, Setpoint};
+use interface::{AddedAngles, Command, Rejection, Reply, Report, Setpoint};
 use model::{ComState, Joint, JointVector, Mechanism, Side};
 use nalgebra::{Vector2, Vector3};
 
@@ -11,6 +11,8 @@ pub struct Tick {
     pub setpoint: Setpoint,
     /// The state of the controller.
     pub report: Report,
+    /// Why the newest measurement was not used, if it was not.
+    pub rejection: Option<Rejection>,
     /// The gait parameters in force; the report has the speed of the instant, which follows over a ramp.
     pub command: Command,
     /// The reply to a request that is decided: to the one submitted before this tick, else to an earlier one.

@@ -25,6 +25,14 @@ codes! {
         Fallen = 256 "the robot has fallen",
         /// The plan needed a foot out of a leg's reach; the posture before was kept.
         OutOfReach = 1024 "the plan needed a foot out of a leg's reach",
+        /// A sensor's value stays the same to the bit although the robot moves; the measurement was not used.
+        MeasurementFrozen = 2048 "a sensor's value has stopped changing",
+        /// Sensors contradict each other; the measurement was not used.
+        MeasurementInconsistent = 4096 "sensors contradict each other",
+        /// A joint is not where it was commanded to be: its encoder is off, or its drive does not follow.
+        JointOffSetpoint = 8192 "a joint is not where it was commanded to be",
+        /// The robot is not in the posture in which the controller begins, nor in a stand; it holds its posture.
+        UnexpectedPosture = 16384 "the robot is not in the posture in which the controller begins",
         /// The control loop missed a deadline.
         DeadlineMissed = 512 "a deadline was missed",
     }

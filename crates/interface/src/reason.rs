@@ -49,5 +49,7 @@ codes! {
         Faulted = 20 "a fault is latched: send reset",
         /// The cause of the latched fault is still present.
         FaultPersists = 21 "the fault persists: the robot must be upright and sending measurements",
+        /// The robot cannot move to a stand from its posture: its feet would slip.
+        NotInStand = 30 "the robot is not in a stand: put its feet side by side first",
     }
 }

@@ -56,9 +56,9 @@ impl JointVector {
     }
 }
 
-impl Default for JointVector {
+impl<T: Default> Default for PerJoint<T> {
     fn default() -> Self {
-        Self::ZERO
+        Self::from_fn(|_| T::default())
     }
 }
 

@@ -15,6 +15,11 @@ use crate::recorder::Recorder;
 
 /// Time between two records of the robot's true state.
 const TRUTH_INTERVAL: Duration = Duration::from_millis(5);
+/// A controller that has been running for less begins as the plant does.
+const BEGIN: Duration = Duration::from_millis(250);
+/// Largest differences of a setpoint from the initial posture (rad) and its rates (rad/s) with which the robot is let
+/// go.
+const RELEASE_TOLERANCE: [f64; 2] = [0.05, 0.3];
 /// How long the run goes on after the robot has fallen, if the run ends with a fall.
 const AFTER_FALL: Duration = Duration::from_millis(500);
 
@@ -36,32 +41,40 @@ pub struct PlantRun {
 struct Intervals {
     truth_ticks: u64,
     after_fall_ticks: u64,
+    begin_ticks: u64,
 }
 
 impl Intervals {
     fn at(rate: Rate) -> Self {
-        Self { truth_ticks: rate.ticks(TRUTH_INTERVAL).max(1), after_fall_ticks: rate.ticks(AFTER_FALL) }
+        Self {
+            truth_ticks: rate.ticks(TRUTH_INTERVAL).max(1),
+            after_fall_ticks: rate.ticks(AFTER_FALL),
+            begin_ticks: rate.ticks(BEGIN),
+        }
     }
 }
 
-/// Runs until the cycles end or, if `end_when_fallen`, until half a second after the robot has fallen. Before the first
-/// setpoint arrives the robot is held in the posture `initial`. `step` computes the physics of one control period.
+/// Runs until the cycles end or, if `end_when_fallen`, until half a second after the robot has fallen. The robot is held
+/// where it is until the first setpoint of a controller that begins as well, or that begins there: one that has been
+/// running for long commands another posture, which would throw the robot over. `step` computes the physics of one
+/// control period.
 ///
 /// # Errors
 /// In lockstep no setpoint has arrived for too long, or the physics cannot be computed.
 pub fn run_plant(
     plant: &mut Plant,
     mut step: impl FnMut(&mut Plant, &Setpoint) -> Result<Measurement, EngineError>,
-    initial: Setpoint,
     cycles: &mut Cycles<SetpointMessage>,
     measurements: &mut LatestWriter<MeasurementMessage>,
     recorder: &mut Recorder<PlantEntry>,
     end_when_fallen: bool,
 ) -> Result<PlantRun, NodeError> {
     let mut run = PlantRun::default();
+    let initial = Setpoint { angles: plant.robot.angles, rates: plant.robot.rates, ..Setpoint::default() };
     let mut setpoint = initial;
+    let mut is_held = true;
     let mut began_ns = None;
-    let Intervals { truth_ticks, after_fall_ticks } = Intervals::at(cycles.rate());
+    let Intervals { truth_ticks, after_fall_ticks, begin_ticks } = Intervals::at(cycles.rate());
     let mut next_truth = truth_ticks;
     recorder.push(PlantEntry { tick: 0, angles: plant.robot.angles, truth: plant.truth() });
     measurements.write(&MeasurementMessage::new(0, now_ns(), &plant.measure()));
@@ -75,9 +88,11 @@ pub fn run_plant(
             setpoint = valid;
         }
 
-        let mut measured = step(plant, &setpoint)?;
+        is_held &= cycle.message.tick > begin_ticks && !begins_at(&setpoint, &initial);
+        let mut pass = || if is_held { Ok(plant.hold()) } else { step(plant, &setpoint) };
+        let mut measured = pass()?;
         for _ in 1..cycle.periods {
-            measured = step(plant, &setpoint)?;
+            measured = pass()?;
         }
         run.ticks = cycle.tick + 1;
 
@@ -99,6 +114,12 @@ pub fn run_plant(
     Ok(run)
 }
 
+/// Whether a setpoint is near the initial posture, and as fast.
+fn begins_at(setpoint: &Setpoint, initial: &Setpoint) -> bool {
+    let [angle, rate] = RELEASE_TOLERANCE;
+    (setpoint.angles - initial.angles).max_abs() <= angle && (setpoint.rates - initial.rates).max_abs() <= rate
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -106,8 +127,8 @@ mod tests {
     #[test]
     fn run_ends_half_a_second_after_a_fall_at_any_rate() {
         for (hz, truth_ticks, after_fall_ticks) in [(250, 1, 125), (1000, 5, 500), (4000, 20, 2000)] {
-            let rate = Rate::new(hz).expect("a rate that loops can keep");
-            assert_eq!(Intervals::at(rate), Intervals { truth_ticks, after_fall_ticks }, "{rate}");
+            let intervals = Intervals::at(Rate::new(hz).expect("a rate that loops can keep"));
+            assert_eq!([intervals.truth_ticks, intervals.after_fall_ticks], [truth_ticks, after_fall_ticks], "{hz} Hz");
         }
     }
 }

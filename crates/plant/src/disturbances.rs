@@ -10,7 +10,7 @@
 //! [[sensor_fault]]
 //! at_s = 5.0
 //! lasts_s = 0.02
-//! kind = "spike"          # or "freeze", "nan", "drop_out", "delay"
+//! kind = "spike"          # or "freeze", "nan", "drift", "saturate", "reverse", "swap", "drop_out", "half_rate", "delay"
 //! values = "rates"
 //! joint = "left_knee"
 //! size_deg_per_s = 900
@@ -51,7 +51,12 @@ enum Kind {
     Freeze,
     NotANumber,
     Spike,
+    Drift,
+    Saturate,
+    Reverse,
+    Swap,
     DropOut,
+    HalfRate,
     Delay,
 }
 
@@ -86,7 +91,12 @@ fn sensor_fault(table: &Table) -> Option<SensorFault> {
         ("freeze", Kind::Freeze),
         ("nan", Kind::NotANumber),
         ("spike", Kind::Spike),
+        ("drift", Kind::Drift),
+        ("saturate", Kind::Saturate),
+        ("reverse", Kind::Reverse),
+        ("swap", Kind::Swap),
         ("drop_out", Kind::DropOut),
+        ("half_rate", Kind::HalfRate),
         ("delay", Kind::Delay),
     ];
     let kind = table.choice("kind", kinds).and_then(|kind| fault_kind(table, kind));
@@ -107,7 +117,18 @@ fn fault_kind(table: &Table, kind: Kind) -> Option<SensorFaultKind> {
             let values = values(table)?;
             SensorFaultKind::Spike { values, size: size(table, values) }
         }
+        Kind::Drift => {
+            let values = values(table)?;
+            SensorFaultKind::Drift { values, rate: size(table, values) }
+        }
+        Kind::Saturate => {
+            let values = values(table)?;
+            SensorFaultKind::Saturate { values, limit: size(table, values) }
+        }
+        Kind::Reverse => SensorFaultKind::Reverse(values(table)?),
+        Kind::Swap => SensorFaultKind::Swap(values(table)?),
         Kind::DropOut => SensorFaultKind::DropOut,
+        Kind::HalfRate => SensorFaultKind::HalfRate,
         Kind::Delay => SensorFaultKind::Delay(table.integer("delay_periods", 1, Sensors::DELAY_MAX as u64) as u32),
     })
 }
@@ -132,7 +153,7 @@ fn values(table: &Table) -> Option<SensedValues> {
     })
 }
 
-/// Size of a spike, in the unit of its values.
+/// Size of a spike, of a drift within a second, or of the range of a saturated sensor, in the unit of its values.
 fn size(table: &Table, values: SensedValues) -> f64 {
     match values {
         SensedValues::Angles(_) | SensedValues::Orientation => table.angle("size_deg").any(),
@@ -140,7 +161,7 @@ fn size(table: &Table, values: SensedValues) -> f64 {
         SensedValues::Feet(_) => table.number("size_n").any(),
         SensedValues::Currents(_) => table.number("size_a").any(),
         SensedValues::All => {
-            table.refuse("values", "must say which values a spike is in: \"all\" have no unit in common");
+            table.refuse("values", "must say which values have the size: \"all\" have no unit in common");
             f64::NAN
         }
     }

@@ -31,6 +31,13 @@ impl RobotState {
         }
     }
 
+    /// The same pose at rest.
+    #[must_use]
+    pub fn at_rest(&self) -> Self {
+        let (angular_rate, velocity) = (Vector3::zeros(), Vector3::zeros());
+        Self { angular_rate, velocity, rates: JointVector::ZERO, ..self.clone() }
+    }
+
     /// Advances by `step` (s): rates first, then angles with the new rates (semi-implicit Euler).
     pub fn integrate(&mut self, accelerations: &Accelerations, step: f64) {
         self.rates += accelerations.joints * step;

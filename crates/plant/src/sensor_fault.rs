@@ -35,6 +35,27 @@ pub enum SensorFaultKind {
         /// How much they are off (rad, rad/s, N, A).
         size: f64,
     },
+    /// Values run away by `rate` per second, as of a spike that grows.
+    Drift {
+        /// The values that run away.
+        values: SensedValues,
+        /// How fast (rad/s, rad/s², N/s, A/s).
+        rate: f64,
+    },
+    /// Values stop at ±`limit`, as of a sensor at the end of its range: of feet the vertical force, of the orientation
+    /// the rotation vector from level.
+    Saturate {
+        /// The values that are limited.
+        values: SensedValues,
+        /// The end of the range (rad, rad/s, N, A).
+        limit: f64,
+    },
+    /// Values have the opposite sign: of feet the vertical force, of the orientation the inverse rotation.
+    Reverse(SensedValues),
+    /// Values of the right and of the left side are exchanged, those of feet and joints alike.
+    Swap(SensedValues),
+    /// Only every second sample arrives; the one before is repeated, with its number.
+    HalfRate,
     /// No new sample arrives: the last one is repeated, with its number.
     DropOut,
     /// Samples arrive this many control periods later than usual, 1 to [`Sensors::DELAY_MAX`], in order: at first none
@@ -68,6 +89,11 @@ impl SensorFault {
         let first = periods(self.start);
         tick >= first && tick - first < periods(self.duration).max(1)
     }
+
+    /// Time since its start in control period `tick` (s).
+    fn age(&self, tick: u64, period: f64) -> f64 {
+        (tick as f64 * period - self.start).max(0.0)
+    }
 }
 
 /// Applies the active faults to the samples on their way to the controller.
@@ -88,10 +114,11 @@ impl FaultInjector {
         }
         // There is room now.
         let _ = self.sent.push_back(sent);
-        let active = || faults.iter().filter(|fault| fault.is_active(sent.sample, period)).map(|fault| fault.kind);
+        let active = || faults.iter().filter(|fault| fault.is_active(sent.sample, period));
+        let kinds = || active().map(|fault| fault.kind);
 
         // Later ...
-        let late = active().filter_map(|kind| if let SensorFaultKind::Delay(late) = kind { Some(late) } else { None });
+        let late = kinds().filter_map(|kind| if let SensorFaultKind::Delay(late) = kind { Some(late) } else { None });
         let late = late.max().unwrap_or(0) as usize;
         let mut arrives = self.sent.iter().nth_back(late).or(self.sent.front()).copied().unwrap_or(sent);
         let last = self.last.unwrap_or(arrives);
@@ -99,19 +126,30 @@ impl FaultInjector {
             arrives = last;
         }
         // ... with wrong values ...
-        for kind in active() {
-            match kind {
-                SensorFaultKind::Freeze(values) => values.take(&mut arrives, &last),
-                SensorFaultKind::NotANumber(values) => values.take(&mut arrives, &not_a_number()),
-                SensorFaultKind::Spike { values, size } => {
-                    let off = displaced(&arrives, size);
-                    values.take(&mut arrives, &off);
+        for fault in active() {
+            let (values, wrong) = match fault.kind {
+                SensorFaultKind::Freeze(values) => (values, last),
+                SensorFaultKind::NotANumber(values) => (values, not_a_number()),
+                SensorFaultKind::Spike { values, size } => (values, displaced(&arrives, size)),
+                SensorFaultKind::Drift { values, rate } => {
+                    (values, displaced(&arrives, rate * fault.age(sent.sample, period)))
                 }
-                SensorFaultKind::DropOut | SensorFaultKind::Delay(_) => {}
-            }
+                SensorFaultKind::Saturate { values, limit } => {
+                    (values, per_value(&arrives, |value| value.clamp(-limit.abs(), limit.abs())))
+                }
+                SensorFaultKind::Reverse(values) => (values, per_value(&arrives, |value| -value)),
+                SensorFaultKind::Swap(values) => (values, swapped(&arrives)),
+                SensorFaultKind::DropOut | SensorFaultKind::Delay(_) | SensorFaultKind::HalfRate => continue,
+            };
+            values.take(&mut arrives, &wrong);
         }
         // ... or not at all.
-        if active().any(|kind| kind == SensorFaultKind::DropOut) {
+        let is_lost = |kind| match kind {
+            SensorFaultKind::DropOut => true,
+            SensorFaultKind::HalfRate => sent.sample % 2 == 1,
+            _ => false,
+        };
+        if kinds().any(is_lost) {
             arrives = last;
         }
         self.last = Some(arrives);
@@ -166,6 +204,40 @@ fn displaced(sample: &Measurement, size: f64) -> Measurement {
         feet: sample.feet.map(|foot| Wrench { force: foot.force + Vector3::z() * size, ..foot }),
         orientation: sample.orientation * UnitQuaternion::from_scaled_axis(Vector3::x() * size).into_inner(),
         angular_rate: sample.angular_rate.add_scalar(size),
+        currents: joints(&sample.currents),
+    }
+}
+
+/// A measurement with every value changed by `change`: of feet the vertical force, of the orientation its rotation
+/// vector.
+fn per_value(sample: &Measurement, change: impl Fn(f64) -> f64) -> Measurement {
+    let joints = |values: &JointVector| PerJoint(values.0.map(&change));
+    let rotation = UnitQuaternion::new_normalize(sample.orientation).scaled_axis();
+    Measurement {
+        sample: sample.sample,
+        angles: joints(&sample.angles),
+        rates: joints(&sample.rates),
+        feet: sample.feet.map(|foot| {
+            let vertical = change(foot.force.z);
+            Wrench { force: Vector3::new(foot.force.x, foot.force.y, vertical), ..foot }
+        }),
+        orientation: UnitQuaternion::from_scaled_axis(rotation.map(&change)).into_inner(),
+        angular_rate: sample.angular_rate.map(&change),
+        currents: joints(&sample.currents),
+    }
+}
+
+/// A measurement with right and left exchanged.
+fn swapped(sample: &Measurement) -> Measurement {
+    let joints = |values: &JointVector| PerJoint::from_fn(|joint| values[model::partner(joint)]);
+    let [right, left] = sample.feet;
+    Measurement {
+        sample: sample.sample,
+        angles: joints(&sample.angles),
+        rates: joints(&sample.rates),
+        feet: [left, right],
+        orientation: sample.orientation,
+        angular_rate: sample.angular_rate,
         currents: joints(&sample.currents),
     }
 }

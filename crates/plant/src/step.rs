@@ -87,6 +87,17 @@ impl Plant {
         self.measure()
     }
 
+    /// Lets one control period pass in which the robot is held at rest where it is, and returns the measurement at its
+    /// end. It moves on from there with the velocities that it has.
+    pub fn hold(&mut self) -> Measurement {
+        self.periods += 1;
+        let at_rest = self.robot.at_rest();
+        let moving = std::mem::replace(&mut self.robot, at_rest);
+        let measurement = self.measure();
+        self.robot = moving;
+        measurement
+    }
+
     /// Time since the start (s).
     pub fn time(&self) -> f64 {
         self.periods as f64 * self.period

@@ -86,13 +86,11 @@ impl PlantArgs {
         // Last: other threads must not be pinned to the loop's core. With an external engine the loop is not pinned, so
         // that the engine need not wait for a core that the loop never leaves.
         let _granted = outside.is_none().then(|| realtime::enter(&realtime.plant, clock, "plant"));
-        let stands = Setpoint { angles: start.angles, ..Setpoint::default() };
         let step = |plant: &mut plant::Plant, setpoint: &Setpoint| match &mut outside {
             None => Ok(plant.step(setpoint)),
             Some(engine) => engine.step(plant, setpoint),
         };
-        let run =
-            run_plant(&mut plant, step, stands, &mut cycles, &mut measurements, &mut recorder, self.end_when_fallen);
+        let run = run_plant(&mut plant, step, &mut cycles, &mut measurements, &mut recorder, self.end_when_fallen);
         drop(recorder);
         let log_gaps = recorder_thread.finish()?;
         let run = run?;

@@ -1,12 +1,12 @@
 //! Requests to the controller, between its ticks: decided at once, or by an admission job.
 
-use interface::{ControlAuthority, Fault, GaitChange, Intent, Reason, Reply, Request, Verdict};
+use interface::{ActiveLimit, ControlAuthority, Fault, GaitChange, Intent, Objection, Reason, Reply, Request, Verdict};
 use pattern::{Gait, Stance};
 
 use super::Controller;
+use super::robot_posture::STAND_TOLERANCE;
 use crate::admission_job::{AdmissionJob, Decision};
 use crate::pattern::{Pattern, goal_of};
-use crate::recovery::Recovery;
 
 impl Controller {
     /// Whether any request can be submitted: the one before has been replied to.
@@ -29,11 +29,14 @@ impl Controller {
         } else if authority.is_some() && !request.is_stop() {
             self.admission.reply(Reply { authority, ..self.refused(Reason::Outranked) });
         } else if request.intent == Some(Intent::Reset) {
-            let can_reset = self.state.latched().is_none() || self.can_reset();
-            if can_reset {
+            let objection = self.state.latched().and_then(|_| self.objection_to_reset());
+            if objection.is_none() {
                 self.reset();
             }
-            self.admission.reply(if can_reset { self.unchanged() } else { self.refused(Reason::FaultPersists) });
+            self.admission.reply(objection.map_or_else(
+                || self.unchanged(),
+                |Objection { reason, active_limit }| Reply { active_limit, ..self.refused(reason) },
+            ));
         } else if self.state.has_fallen() {
             self.admission.reply(self.refused(Reason::Fallen));
         } else if request.is_urgent() {
@@ -124,20 +127,27 @@ impl Controller {
         }
     }
 
-    /// Whether the cause of the latched fault is gone.
-    fn can_reset(&self) -> bool {
-        let is_well = self.validator.is_upright() && !self.validator.is_stale();
-        is_well && (!self.state.has_fallen() || matches!(self.pattern, Pattern::Planned(_)))
+    /// Why the latched fault cannot be cleared; `None` if its cause is gone.
+    fn objection_to_reset(&self) -> Option<Objection> {
+        let persists = Some(Objection { reason: Reason::FaultPersists, active_limit: None });
+        if !self.validator.is_upright() || self.validator.is_stale() {
+            return persists;
+        }
+        if !self.state.holds_posture() {
+            return None;
+        }
+        let (Pattern::Planned(_), Some(measured)) = (&self.pattern, &self.measured_angles) else { return persists };
+        // Who has fallen is held by somebody, and put on its feet. Who stands on its feet by itself must not slip.
+        let (joint, value) = self.distance_from_stand(measured);
+        let limit = ActiveLimit { joint: Some(joint), value, limit: STAND_TOLERANCE };
+        (self.state.is_found() && value > STAND_TOLERANCE)
+            .then_some(Objection { reason: Reason::NotInStand, active_limit: Some(limit) })
     }
 
-    /// Clears the latched fault. After a fall the joints return to a stand first.
+    /// Clears the latched fault. A robot that holds its posture moves to a stand first.
     fn reset(&mut self) {
-        match &mut self.pattern {
-            Pattern::Planned(generator) if self.state.has_fallen() => {
-                generator.clone_from(&self.rest);
-                let stand = generator.physical_motion().angles;
-                self.state.recover(Recovery::begin(&self.limiter.hold().angles, &stand));
-            }
+        match self.measured_angles {
+            Some(measured) if self.state.holds_posture() => self.recover(&measured),
             _ => self.state.clear_fault(),
         }
     }

@@ -1,0 +1,162 @@
+//! Joint angles against their setpoints and against their rates.
+
+use interface::{Fault, Measurement, Rejection, Sensor, Setpoint};
+use model::{Joint, JointVector, PerJoint};
+
+use super::ConsistencyParameters;
+
+/// Time over which the mean tracking error is formed (s): pushes and impacts are shorter.
+const BIAS_TIME_CONSTANT: f64 = 0.3;
+/// Time constant with which the integral of a rate is corrected by the measured angle (s).
+const CORRECTION_TIME_CONSTANT: f64 = 0.1;
+/// Longest gap between samples over which rates can be integrated (s).
+const INTEGRABLE: f64 = 0.005;
+
+/// Finds encoders that are off, stuck or reversed, drives that do not follow, and rates that are not those of the angles.
+#[derive(Clone, Debug, Default)]
+pub(super) struct JointConsistency {
+    /// Mean tracking error (rad).
+    bias: JointVector,
+    /// The angles that the rates lead to (rad).
+    integral: Option<JointVector>,
+}
+
+impl JointConsistency {
+    /// Absorbs a sample, and names the joint that is off.
+    pub(super) fn update(
+        &mut self,
+        sample: &Measurement,
+        last: &Measurement,
+        setpoint: &Setpoint,
+        parameters: &ConsistencyParameters,
+        dt: f64,
+    ) -> Option<Rejection> {
+        let errors = sample.angles - setpoint.angles;
+        let rate_errors = self.rate_errors(sample, last, dt);
+        let mut rejection = None;
+        // The first two joints are those of the foot on the ground, which nothing measures.
+        for joint in Joint::ALL.into_iter().filter(|joint| joint.is_powered()) {
+            let is_astray = errors[joint].abs() > parameters.tracking_error_max;
+            // A moment's glitch leaves no trace in the mean.
+            if !is_astray {
+                self.bias[joint] += (errors[joint] - self.bias[joint]) * dt / (BIAS_TIME_CONSTANT + dt);
+            }
+            let is_biased = self.bias[joint].abs() > parameters.tracking_bias_max;
+            let found = if is_astray || is_biased {
+                Some(Rejection { fault: Fault::JointOffSetpoint, sensor: Sensor::JointAngle(joint) })
+            } else if rate_errors[joint].abs() > parameters.rate_error_max {
+                // The setpoint is the third witness.
+                let is_angle_off = errors[joint].abs() > parameters.tracking_bias_max;
+                let sensor = if is_angle_off { Sensor::JointAngle(joint) } else { Sensor::JointRate(joint) };
+                Some(Rejection { fault: Fault::MeasurementInconsistent, sensor })
+            } else {
+                None
+            };
+            rejection = rejection.or(found);
+        }
+        rejection
+    }
+
+    /// The measured angles minus those that the rates lead to (rad).
+    fn rate_errors(&mut self, sample: &Measurement, last: &Measurement, dt: f64) -> JointVector {
+        let Some(integral) = self.integral.filter(|_| dt < INTEGRABLE) else {
+            self.integral = Some(sample.angles);
+            return JointVector::ZERO;
+        };
+        let predicted = integral + (sample.rates + last.rates) * (dt / 2.0);
+        let errors = sample.angles - predicted;
+        self.integral = Some(predicted + errors * (dt / (CORRECTION_TIME_CONSTANT + dt)));
+        errors
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PARAMETERS: ConsistencyParameters = ConsistencyParameters {
+        orientation_error_max: 0.012,
+        tracking_error_max: 0.15,
+        tracking_bias_max: 0.02,
+        rate_error_max: 0.01,
+        load_share: [0.6, 1.5],
+    };
+
+    /// A knee that swings by 0.3 rad at 2 Hz and follows its setpoint.
+    fn swinging(time: f64) -> (Setpoint, Measurement) {
+        let omega = std::f64::consts::TAU * 2.0;
+        let at = |value: f64| PerJoint::from_fn(|joint| if joint == Joint::LeftKnee { value } else { 0.0 });
+        let (angles, rates) = (at(0.3 * (omega * time).sin()), at(0.3 * omega * (omega * time).cos()));
+        let setpoint = Setpoint { angles, rates, feed_forward: JointVector::ZERO };
+        let sample = Measurement {
+            sample: 0,
+            angles,
+            rates,
+            feet: [model::Wrench::ZERO; 2],
+            orientation: nalgebra::Quaternion::identity(),
+            angular_rate: nalgebra::Vector3::zeros(),
+            currents: JointVector::ZERO,
+        };
+        (setpoint, sample)
+    }
+
+    /// What is found of a swing with wrong values from 1 s on, and when (s after it).
+    fn found(wrong: impl Fn(&mut Measurement)) -> Option<(f64, Rejection)> {
+        let mut joints = JointConsistency::default();
+        let mut last = swinging(0.0).1;
+        for tick in 0..3000 {
+            let time = f64::from(tick) * 1e-3;
+            let (setpoint, mut sample) = swinging(time);
+            if time >= 1.0 {
+                wrong(&mut sample);
+            }
+            if let Some(rejection) = joints.update(&sample, &last, &setpoint, &PARAMETERS, 1e-3) {
+                return Some((time - 1.0, rejection));
+            }
+            last = sample;
+        }
+        None
+    }
+
+    #[test]
+    fn a_swing_that_is_followed_is_consistent() {
+        assert_eq!(found(|_| {}), None);
+    }
+
+    #[test]
+    fn a_rate_that_is_off_or_reversed_is_named() {
+        for wrong in [
+            (|sample: &mut Measurement| sample.rates[Joint::LeftKnee] += 0.5) as fn(&mut Measurement),
+            |sample| sample.rates[Joint::LeftKnee] *= -1.0,
+            |sample| sample.rates[Joint::LeftKnee] = 0.0,
+        ] {
+            let (after, rejection) = found(wrong).unwrap();
+            assert_eq!(rejection.sensor, Sensor::JointRate(Joint::LeftKnee));
+            assert!(after < 0.05, "after {after} s");
+        }
+    }
+
+    #[test]
+    fn an_encoder_that_is_off_by_two_degrees_is_named() {
+        let (after, rejection) = found(|sample| sample.angles[Joint::LeftKnee] += 0.035).unwrap();
+        assert_eq!(rejection.sensor, Sensor::JointAngle(Joint::LeftKnee));
+        assert!(after < 0.3, "after {after} s");
+    }
+
+    #[test]
+    fn an_encoder_that_drifts_is_named() {
+        let mut joints = JointConsistency::default();
+        let (_, mut last) = swinging(0.0);
+        let off = |tick: u32| f64::from(tick) * 1e-3 * 0.035;
+        let named = (0..3000).find_map(|tick| {
+            let (setpoint, mut sample) = swinging(f64::from(tick) * 1e-3);
+            sample.angles[Joint::LeftKnee] += off(tick);
+            let rejection = joints.update(&sample, &last, &setpoint, &PARAMETERS, 1e-3);
+            last = sample;
+            rejection.map(|rejection| (off(tick), rejection.sensor))
+        });
+        let (off, sensor) = named.unwrap();
+        assert_eq!(sensor, Sensor::JointAngle(Joint::LeftKnee));
+        assert!(off < 0.04, "{off} rad");
+    }
+}
