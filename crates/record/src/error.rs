@@ -35,6 +35,26 @@ pub enum RecordError {
         /// Path of the file.
         file: PathBuf,
     },
+    /// Nothing of the run can be read from the file.
+    #[error("{file}: holds nothing of a run: {cause}", file = file.display())]
+    Unreadable {
+        /// Path of the file.
+        file: PathBuf,
+        /// Where it is truncated or damaged.
+        cause: String,
+    },
+    /// The file's chunks are compressed in a way that cannot be read.
+    #[error(
+        "{file}: is compressed with `{compression}`; lz4 and zstd can be read, for others unpack it first with \
+         `mcap decompress`",
+        file = file.display()
+    )]
+    UnknownCompression {
+        /// Path of the file.
+        file: PathBuf,
+        /// MCAP's name of the compression.
+        compression: String,
+    },
     /// The folder holds no recording.
     #[error(
         "{folder}: holds no recording; it must hold {names}, as `halfstep walk --out` writes them",

@@ -28,6 +28,7 @@ mod message;
 mod new_file;
 mod provenance;
 mod reader;
+mod record_stream;
 mod run_event;
 mod schema;
 mod writer;

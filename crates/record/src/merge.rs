@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use crate::reader::TRUNCATED;
 use crate::{Item, Metadata, Provenance, RecordError, Recording, RecordingWriter, TimedEvent, set_aside};
 
 /// A recording whose next event has been read already.
@@ -56,6 +57,10 @@ fn write<P: AsRef<Path>>(parts: &[P], whole: &Path) -> Result<(), RecordError> {
         for metadata in first.metadata.drain(..) {
             writer.write_metadata(&metadata)?;
         }
+    }
+    let cuts: Vec<String> = open.iter().filter_map(|part| part.recording.cut()).collect();
+    if !cuts.is_empty() {
+        writer.write_metadata(&Metadata::new(TRUNCATED, [("parts", cuts.join("; "))]))?;
     }
     writer.finish()
 }

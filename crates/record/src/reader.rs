@@ -1,26 +1,22 @@
 //! Reading a recording, from its beginning to its end or to where it is truncated.
 
 use std::collections::HashMap;
-use std::fs::File;
-use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 
-use mcap::McapError;
 use mcap::records::Record;
-use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
 
+use crate::record_stream::{RecordStream, Stop};
 use crate::schema::{self, HEAD, MESSAGE_ENCODING, SCHEMA_ENCODING};
 use crate::{CONTROLLER_FILE, Channel, Metadata, PLANT_FILE, Provenance, RUN_FILE, RecordError, RunEvent};
 
-/// Longest record that is read (bytes): ours are shorter, a damaged file may claim more.
-const RECORD_MAX: usize = 1 << 30;
+/// Name of the metadata that says which parts of a merged recording were truncated.
+pub(crate) const TRUNCATED: &str = "truncated";
 
 /// A recording while it is read. Channels of other programs are skipped.
 pub struct Recording {
     /// Path of the file, for messages.
     path: PathBuf,
-    file: BufReader<File>,
-    reader: LinearReader,
+    records: RecordStream,
     /// Encoding and text of the schemas, by MCAP's numbers.
     schemas: HashMap<u16, (String, String)>,
     /// The channels, by MCAP's numbers.
@@ -29,6 +25,8 @@ pub struct Recording {
     is_whole: bool,
     /// Why the end of the file is missing.
     damage: Option<String>,
+    /// What was missing at the end of the parts from which the recording was merged.
+    truncated: Option<String>,
     /// Time of the last event that was read (ns).
     time_ns: u64,
 }
@@ -84,23 +82,26 @@ pub fn files_of(run: &Path) -> Result<Vec<PathBuf>, RecordError> {
     }
 }
 
-/// The provenance of a run, given by its recording or by the folder that holds it. Of files with the same name the
-/// first is taken.
+/// The provenance of a run, given by its recording or by the folder that holds it, wherever in the file another program
+/// has moved it. Of files with the same name the first is taken.
 ///
 /// # Errors
-/// See [`files_of`] and [`Recording::next_item`].
+/// See [`files_of`] and [`Recording::next_item`]; a file that is empty, or damaged before anything of the run.
 pub fn provenance_of(run: &Path) -> Result<Provenance, RecordError> {
     let mut provenance = Provenance::default();
     for file in files_of(run)? {
-        let mut recording = Recording::open(&file)?;
-        // We write it before all events; other programs may move it behind them.
+        let mut recording = Recording::open_without_events(&file)?;
+        let mut is_known = false;
         while let Some(item) = recording.next_item()? {
+            is_known = true;
             match item {
                 Item::Metadata(metadata) => provenance.metadata.push(metadata),
                 Item::File(name, text) => provenance.attach(name, text),
-                Item::Event(_) if provenance.files.is_empty() => {}
-                Item::Event(_) => break,
+                Item::Event(_) => {}
             }
+        }
+        if let (false, Some(cause)) = (is_known, recording.damage) {
+            return Err(RecordError::Unreadable { file, cause });
         }
     }
     Ok(provenance)
@@ -112,22 +113,26 @@ impl Recording {
     /// # Errors
     /// The file cannot be opened. Its content is checked as it is read.
     pub fn open(path: &Path) -> Result<Self, RecordError> {
-        let file = File::open(path).map_err(RecordError::io(path))?;
-        let options = LinearReaderOptions::default()
-            .with_skip_end_magic(true)
-            // A truncated chunk yields nothing, and a damaged one nothing wrong.
-            .with_prevalidate_chunk_crcs(true)
-            .with_record_length_limit(RECORD_MAX);
-        Ok(Self {
+        Ok(Self::of(path, RecordStream::open(path)?))
+    }
+
+    /// Opens a file without its events: what is left is found without reading all of it.
+    fn open_without_events(path: &Path) -> Result<Self, RecordError> {
+        Ok(Self::of(path, RecordStream::open(path)?.without_chunks()))
+    }
+
+    fn of(path: &Path, records: RecordStream) -> Self {
+        let (schemas, channels) = (HashMap::new(), HashMap::new());
+        Self {
             path: path.to_owned(),
-            file: BufReader::new(file),
-            reader: LinearReader::new_with_options(options),
-            schemas: HashMap::new(),
-            channels: HashMap::new(),
+            records,
+            schemas,
+            channels,
             is_whole: false,
             damage: None,
+            truncated: None,
             time_ns: 0,
-        })
+        }
     }
 
     /// The next part of the recording; `None` at the end, or where the file is truncated or damaged: see
@@ -137,24 +142,14 @@ impl Recording {
     /// The file cannot be read, or is not a recording of this version.
     pub fn next_item(&mut self) -> Result<Option<Item>, RecordError> {
         while !self.is_whole && self.damage.is_none() {
-            match self.reader.next_event() {
-                None => self.damage = Some("it ends without an index".to_owned()),
-                Some(Err(McapError::BadMagic)) => return Err(RecordError::NotMcap { file: self.path.clone() }),
-                Some(Err(McapError::UnexpectedEof)) => self.damage = Some("it ends inside a chunk".to_owned()),
-                Some(Err(error)) => self.damage = Some(error.to_string()),
-                Some(Ok(LinearReadEvent::ReadRequest(wanted))) => {
-                    let read = self.file.read(self.reader.insert(wanted)).map_err(RecordError::io(&self.path))?;
-                    self.reader.notify_read(read);
-                }
-                Some(Ok(LinearReadEvent::Record { data, opcode })) => match mcap::parse_record(opcode, data) {
-                    Ok(record) => {
-                        let record = record.into_owned();
-                        if let Some(item) = self.item(record)? {
-                            return Ok(Some(item));
-                        }
+            match self.records.next() {
+                Ok(record) => {
+                    if let Some(item) = self.item(record)? {
+                        return Ok(Some(item));
                     }
-                    Err(error) => self.damage = Some(error.to_string()),
-                },
+                }
+                Err(Stop::Damage(damage)) => self.damage = Some(damage),
+                Err(Stop::Error(error)) => return Err(error),
             }
         }
         Ok(None)
@@ -177,7 +172,7 @@ impl Recording {
     /// After reading: why and from which time on the end of the recording is missing; `None` if it is complete.
     pub fn cut(&self) -> Option<String> {
         let seconds = self.time_ns as f64 * 1e-9;
-        let damage = self.damage.as_ref()?;
+        let Some(damage) = &self.damage else { return self.truncated.clone() };
         Some(format!("{}: truncated, valid up to {seconds:.3} s: {damage}", self.path.display()))
     }
 
@@ -212,6 +207,10 @@ impl Recording {
             }
             Record::Metadata(record) => {
                 let metadata = Metadata { name: record.name, entries: record.metadata };
+                if metadata.name == TRUNCATED {
+                    self.truncated = Some(metadata.entries.into_values().collect::<Vec<_>>().join("; "));
+                    return Ok(None);
+                }
                 return Ok(Some(Item::Metadata(metadata)));
             }
             Record::Attachment { header, data, .. } => {
@@ -244,6 +243,7 @@ impl Recording {
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeMap;
+    use std::fs::File;
 
     use wire::{SetpointMessage, WireLayout};
 
@@ -304,5 +304,65 @@ mod tests {
         assert_eq!(files_of(folder.path()).unwrap(), [file(RUN_FILE)]);
         assert_eq!(provenance_of(folder.path()).unwrap(), provenance);
         assert_eq!(provenance.entry(PLANT_FILE, "key"), Some("value"));
+    }
+
+    /// A small recording of every kind of event, with metadata and attachments.
+    fn small() -> Vec<u8> {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("small.mcap");
+        let metadata = vec![Metadata::new("controller", [("clock", "lockstep".to_owned())])];
+        let files = vec![("mechanism.toml".to_owned(), "name = \"robot\"".to_owned())];
+        let mut writer = RecordingWriter::create(&file, &Provenance { metadata, files }).unwrap();
+        for number in 0..20 {
+            for channel in Channel::ALL {
+                let event = channel.decode(&vec![number as u8; channel.layout().size]).unwrap();
+                writer.write(u64::from(number) * 100_000_000, number, &event).unwrap();
+            }
+        }
+        writer.write_metadata(&Metadata::new("controller end", [("lost", "0".to_owned())])).unwrap();
+        writer.finish().unwrap();
+        std::fs::read(file).unwrap()
+    }
+
+    proptest::proptest! {
+        /// A record must not be longer than the file: else a few bytes would take all memory.
+        #[test]
+        fn any_file_is_read_or_refused(
+            changes in proptest::collection::vec((0.0..1.0, 0..4, proptest::num::u64::ANY), 0..6),
+            kept in 0.0..1.3,
+        ) {
+            let mut bytes = small();
+            for (place, kind, number) in changes {
+                let place = (place * (bytes.len() - 8) as f64) as usize;
+                let number = if kind == 0 { number } else { number % (1_u64 << (8 * kind)) };
+                bytes[place..place + 8].copy_from_slice(&number.to_le_bytes());
+            }
+            bytes.truncate((kept * bytes.len() as f64) as usize);
+            let folder = tempfile::tempdir().unwrap();
+            let file = folder.path().join("spoilt.mcap");
+            std::fs::write(&file, &bytes).unwrap();
+            let (mut recording, mut items) = (Recording::open(&file).unwrap(), 0);
+            while let Ok(Some(_)) = recording.next_item() {
+                items += 1;
+            }
+            assert!(items <= bytes.len());
+            assert!(recording.cut().is_none_or(|cut| !cut.is_empty()));
+            let _ = provenance_of(&file);
+        }
+    }
+
+    #[test]
+    fn a_record_that_claims_to_be_long_costs_what_the_file_holds() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("claims.mcap");
+        for claim in [1_u64 << 20, 1 << 27, 1 << 30, 1 << 40, u64::MAX] {
+            let mut bytes = b"\x89MCAP0\r\n\x0c".to_vec();
+            bytes.extend(claim.to_le_bytes());
+            bytes.extend([0; 100]);
+            std::fs::write(&file, bytes).unwrap();
+            let mut recording = Recording::open(&file).unwrap();
+            assert_eq!(recording.next_item().unwrap(), None);
+            assert!(recording.cut().unwrap().contains(if claim > 1 << 28 { "a record of" } else { "inside a record" }));
+        }
     }
 }
