@@ -18,11 +18,11 @@ fn check_lists_every_error_of_every_file() {
     let ended = command_line.run("check");
     assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""));
     for (file, text, wanted) in [
-        ("config/mechanism.toml", "-0.608", "motor.leg.resistance_ohm = -0.608: must be greater than 0"),
+        ("config/mechanism.toml", "-0.608", "motor.leg.resistance_ohm = -0.608: must lie between 0.001 and 10000"),
         ("config/nominal_half_step.csv", "soon", "the header says `# duration_s = soon` where it must say"),
         ("config/controller.toml", "gian", "unknown key"),
         ("config/controller.toml", "[feedback]", "feedback.gain: is missing"),
-        ("config/plant.toml", "friction = -", "must be at least 0"),
+        ("config/plant.toml", "friction = -", "must lie between 0 and 10"),
         ("config/commands_demo.jsonl", "sped", "unknown field `sped`, expected one of `t`, `turn_deg`, `speed`"),
     ] {
         let line = 1 + command_line.read(file).lines().position(|line| line.contains(text)).expect("it was spoilt");

@@ -168,8 +168,8 @@ fn stated_in(figure: u32) -> Option<Stated> {
     root.has("lean").then(|| {
         let lean = root.table("lean");
         let at = lean.choice("at", [("ankle", LeanAt::Ankle), ("trunk", LeanAt::Trunk)]).expect("a place to lean at");
-        let angles = Vector2::from(lean.angles("angles_deg").any());
-        Stated { speed: root.table("request").number("speed").any(), lean: PaperLean { at, angles } }
+        let angles = Vector2::from(lean.angles("angles_deg").between(-45.0, 45.0));
+        Stated { speed: root.table("request").number("speed").between(0.1, 2.0), lean: PaperLean { at, angles } }
     })
 }
 

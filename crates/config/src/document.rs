@@ -3,9 +3,12 @@
 use toml::Spanned;
 use toml::de::DeTable;
 
-use crate::source::Source;
+use crate::source::{ERRORS_MAX, Source};
 use crate::unknown_keys::unknown_keys;
 use crate::{ConfigErrors, Table};
+
+/// Longest configuration file (bytes): ours have a hundredth of it.
+const LENGTH_MAX: usize = 1 << 20;
 
 /// A TOML file while it is being read.
 pub struct Document<'t> {
@@ -17,14 +20,18 @@ impl<'t> Document<'t> {
     /// Parses a file's text; `file` is its name for messages.
     ///
     /// # Errors
-    /// Every place where the text is no TOML, duplicate keys included.
+    /// Every place where the text is no TOML, duplicate keys included; a text of more than a megabyte.
     pub fn parse(text: &'t str, file: &str) -> Result<Self, ConfigErrors> {
-        let (root, errors) = DeTable::parse_recoverable(text);
         let source = Source::new(text, file);
+        if text.len() > LENGTH_MAX {
+            let message = format!("has {} bytes; a configuration file has at most {LENGTH_MAX}", text.len());
+            return Err(ConfigErrors(vec![source.error("", 0..0, None, message)]));
+        }
+        let (root, errors) = DeTable::parse_recoverable(text);
         if errors.is_empty() {
             return Ok(Self { source, root });
         }
-        let errors = errors.iter().map(|error| {
+        let errors = errors.iter().take(ERRORS_MAX).map(|error| {
             let message = error.message().trim().replace('\n', ", ");
             source.error("", error.span().unwrap_or(0..0), None, format!("not valid TOML: {message}"))
         });

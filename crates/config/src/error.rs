@@ -42,8 +42,11 @@ pub struct ConfigErrors(pub Vec<ConfigError>);
 
 impl ConfigErrors {
     /// Errors in the order of the text; there must be one at least.
+    ///
+    /// A key that is looked up twice is reported once.
     pub(crate) fn in_order(mut errors: Vec<ConfigError>) -> Self {
-        errors.sort_by_key(|error| (error.line, error.column));
+        errors.sort_by(|a, b| (a.line, a.column, &a.path, &a.message).cmp(&(b.line, b.column, &b.path, &b.message)));
+        errors.dedup();
         Self(errors)
     }
 

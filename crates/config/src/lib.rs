@@ -13,7 +13,7 @@
 //!     fn read(root: &Table) -> Self {
 //!         let lean = root.table("lean");
 //!         Lean {
-//!             gain: lean.number("gain").positive(),
+//!             gain: lean.number("gain").between(0.0, 20.0),
 //!             angle_max: lean.angle("angle_max_deg").between(0.0, 10.0), // degrees in the file, radians here
 //!         }
 //!     }
@@ -23,7 +23,7 @@
 //! let errors = Lean::from_toml("[lean]\ngain = -3\nangle_max = 5.0", "lean.toml").err().unwrap();
 //! assert_eq!(
 //!     errors.to_string(),
-//!     "lean.toml:2:8: lean.gain = -3: must be greater than 0\n\
+//!     "lean.toml:2:8: lean.gain = -3: must lie between 0 and 20\n\
 //!      lean.toml:3:1: lean.angle_max = 5.0: unknown key; write `angle_max_deg`"
 //! );
 //! ```
@@ -42,5 +42,6 @@ pub use config::Config;
 pub use document::Document;
 pub use error::{ConfigError, ConfigErrors};
 pub use number::{Number, Numbers};
+pub use source::quoted;
 pub use table::Table;
-pub use text::read_text;
+pub use text::{bounded_text, read_text};

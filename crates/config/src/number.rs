@@ -2,7 +2,8 @@
 
 use crate::place::Place;
 
-/// A number of the file, in the unit of its key, before the loader has stated which numbers are right.
+/// A number of the file, in the unit of its key, before the loader has stated which numbers are right. There is no
+/// number without a range: what is finite but absurd is nearly always a mistake of unit.
 ///
 /// Every method returns the value in SI units, or `NaN` after noting what is wrong. Bounds are in the unit of the key:
 /// `angle("lean_max_deg").between(0.0, 10.0)` means degrees.
@@ -16,21 +17,6 @@ pub struct Number<'d> {
 }
 
 impl Number<'_> {
-    /// Any finite number.
-    pub fn any(self) -> f64 {
-        self.written * self.unit
-    }
-
-    /// A number greater than 0.
-    pub fn positive(self) -> f64 {
-        self.that(|value| value > 0.0, "must be greater than 0")
-    }
-
-    /// A number that is 0 or greater.
-    pub fn not_negative(self) -> f64 {
-        self.that(|value| value >= 0.0, "must be at least 0")
-    }
-
     /// A number of the closed interval from `min` to `max`, in the unit of the key.
     pub fn between(self, min: f64, max: f64) -> f64 {
         self.that(|value| value >= min && value <= max, &format!("must lie between {min} and {max}"))
@@ -45,7 +31,7 @@ impl Number<'_> {
             self.place.refuse(must);
             return f64::NAN;
         }
-        self.any()
+        self.written * self.unit
     }
 }
 
@@ -62,9 +48,18 @@ pub struct Numbers<'d, const N: usize> {
 }
 
 impl<const N: usize> Numbers<'_, N> {
-    /// Any finite numbers.
-    pub fn any(self) -> [f64; N] {
-        self.written.map(|value| value * self.unit)
+    /// Numbers of the closed interval from `min` to `max`, in the unit of the key.
+    pub fn between(self, min: f64, max: f64) -> [f64; N] {
+        let right = |values: &[f64; N]| values.iter().all(|value| (min..=max).contains(value));
+        self.that(right, &format!("each must lie between {min} and {max}"))
+    }
+
+    /// Numbers of the closed interval from `min` to `max`, of which each is greater than the one before.
+    pub fn increasing_between(self, min: f64, max: f64) -> [f64; N] {
+        let right = |values: &[f64; N]| {
+            values.iter().all(|value| (min..=max).contains(value)) && values.is_sorted_by(|a, b| a < b)
+        };
+        self.that(right, &format!("each must lie between {min} and {max}, and be greater than the one before"))
     }
 
     /// Numbers for which `right` holds; `must` states it in words: "must be a unit vector".
@@ -76,16 +71,6 @@ impl<const N: usize> Numbers<'_, N> {
             self.place.refuse(must);
             return [f64::NAN; N];
         }
-        self.any()
-    }
-
-    /// Numbers that are all greater than 0.
-    pub fn positive(self) -> [f64; N] {
-        self.that(|values| values.iter().all(|&value| value > 0.0), "each must be greater than 0")
-    }
-
-    /// Numbers of which each is greater than the one before.
-    pub fn increasing(self) -> [f64; N] {
-        self.that(|values| values.is_sorted_by(|a, b| a < b), "each must be greater than the one before")
+        self.written.map(|value| value * self.unit)
     }
 }

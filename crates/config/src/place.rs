@@ -19,6 +19,9 @@ pub(crate) struct Place<'d> {
 impl Place<'_> {
     /// Notes that the value is wrong; `must` states what would be right.
     pub(crate) fn refuse(&self, must: &str) {
+        if self.source.has_enough_errors() {
+            return;
+        }
         let at = self.value.clone().unwrap_or(self.table.clone());
         self.source.note(self.source.error(&self.path, at, self.value.clone(), must));
     }

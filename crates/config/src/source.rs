@@ -6,6 +6,9 @@ use std::ops::Range;
 
 use crate::{ConfigError, ConfigErrors};
 
+/// Most mistakes of a kind that are reported of a file.
+pub(crate) const ERRORS_MAX: usize = 100;
+
 /// The text of a file while it is being read.
 pub(crate) struct Source<'t> {
     text: &'t str,
@@ -46,9 +49,17 @@ impl<'t> Source<'t> {
         &self.file
     }
 
-    /// Notes a wrong value.
+    /// Notes a wrong value, unless there are so many that nobody would read on.
     pub(crate) fn note(&self, error: ConfigError) {
-        self.notes.borrow_mut().errors.push(error);
+        let errors = &mut self.notes.borrow_mut().errors;
+        if errors.len() < ERRORS_MAX {
+            errors.push(error);
+        }
+    }
+
+    /// Whether nobody would read further errors: then their places need not be searched.
+    pub(crate) fn has_enough_errors(&self) -> bool {
+        self.notes.borrow().errors.len() >= ERRORS_MAX
     }
 
     /// The error at a place in the text. `found` is the place of the value to quote.
@@ -66,7 +77,7 @@ impl<'t> Source<'t> {
             line: before.matches('\n').count() + 1,
             column: before[line_start..].chars().count() + 1,
             path: path.to_string(),
-            found: found.map(|span| quote(&self.text[span])),
+            found: found.map(|span| quoted(&self.text[span])),
             message: message.into(),
         }
     }
@@ -88,8 +99,8 @@ pub(crate) fn path_of(table: &str, key: &str) -> String {
     if table.is_empty() { key.to_string() } else { format!("{table}.{key}") }
 }
 
-/// A value's text on one line of readable length.
-fn quote(text: &str) -> String {
+/// A text as errors quote it: on one line, of readable length.
+pub fn quoted(text: &str) -> String {
     const LENGTH_MAX: usize = 60;
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
     if line.chars().count() <= LENGTH_MAX {

@@ -10,6 +10,11 @@ use crate::place::Place;
 use crate::source::{Missing, Source, path_of};
 use crate::{Number, Numbers};
 
+/// Most tables of an array `[[key]]`.
+const TABLES_MAX: usize = 1000;
+/// Longest text (bytes).
+const TEXT_MAX: usize = 1000;
+
 /// A table of a file. A missing table yields placeholders without further errors.
 pub struct Table<'d> {
     source: &'d Source<'d>,
@@ -51,14 +56,14 @@ impl<'d> Table<'d> {
         self.scaled(key, f64::to_radians(1.0))
     }
 
-    /// A length of time greater than 0: its key ends with `_s`, `_ms` or `_us`.
-    pub fn duration(&self, key: &str) -> Duration {
+    /// A length of time from `min` to `max`, in the unit of its key, which ends with `_s`, `_ms` or `_us`.
+    pub fn duration(&self, key: &str, min: f64, max: f64) -> Duration {
         let unit = match key.rsplit('_').next() {
             Some("ms") => 1e-3,
             Some("us") => 1e-6,
             _ => 1.0,
         };
-        Duration::try_from_secs_f64(self.scaled(key, unit).positive()).unwrap_or_default()
+        Duration::try_from_secs_f64(self.scaled(key, unit).between(min, max)).unwrap_or_default()
     }
 
     /// `N` numbers in one array, in the unit that the key ends with.
@@ -100,7 +105,12 @@ impl<'d> Table<'d> {
     pub fn text(&self, key: &str) -> &'d str {
         let must = "must be a text in quotes";
         let Some(value) = self.require(key, must) else { return "" };
-        value.get_ref().as_str().filter(|text| !text.trim().is_empty()).unwrap_or_else(|| {
+        let text = value.get_ref().as_str().filter(|text| !text.trim().is_empty());
+        if text.is_some_and(|text| text.len() > TEXT_MAX) {
+            self.refuse(key, &format!("must have at most {TEXT_MAX} bytes"));
+            return "";
+        }
+        text.unwrap_or_else(|| {
             self.refuse(key, must);
             ""
         })
@@ -163,7 +173,12 @@ impl<'d> Table<'d> {
     /// The tables of an array `[[key]]`; none when the key is left out.
     pub fn tables(&self, key: &str) -> Vec<Table<'d>> {
         let Some(value) = self.find(key) else { return Vec::new() };
-        let found = value.get_ref().as_array().and_then(|array| {
+        let array = value.get_ref().as_array();
+        if array.is_some_and(|array| array.len() > TABLES_MAX) {
+            self.refuse(key, &format!("must be at most {TABLES_MAX} tables"));
+            return Vec::new();
+        }
+        let found = array.and_then(|array| {
             let tables = array.iter().enumerate();
             tables.map(|(index, value)| self.sub_table(&format!("{key}[{index}]"), value)).collect()
         });

@@ -5,7 +5,7 @@
 use toml::de::{DeTable, DeValue};
 
 use crate::ConfigError;
-use crate::source::{Source, path_of};
+use crate::source::{ERRORS_MAX, Source, path_of};
 
 /// The words that units at the end of keys are made of: `range_deg`, `torque_constant_n_m_per_a`.
 const UNIT_WORDS: [&str; 26] = [
@@ -24,6 +24,9 @@ pub(crate) fn unknown_keys(source: &Source<'_>, root: &DeTable<'_>) -> Vec<Confi
 fn visit(source: &Source<'_>, path: &str, table: &DeTable<'_>, errors: &mut Vec<ConfigError>) {
     let Some(expected) = source.notes.borrow().expected.get(path).cloned() else { return };
     for (key, value) in table {
+        if errors.len() >= ERRORS_MAX {
+            return;
+        }
         let name = key.get_ref().as_ref();
         let key_path = path_of(path, name);
         if !expected.iter().any(|known| known == name) {

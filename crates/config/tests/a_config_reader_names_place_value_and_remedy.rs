@@ -23,14 +23,14 @@ impl Config for Servo {
         let servo = root.table("servo");
         Servo {
             name: root.text("name").to_string(),
-            stiffness: servo.number("stiffness_n_m_per_rad").positive(),
+            stiffness: servo.number("stiffness_n_m_per_rad").between(1.0, 1e5),
             angle_max: servo.angle("angle_max_deg").between(0.0, 90.0),
-            period: servo.duration("period_ms"),
+            period: servo.duration("period_ms", 0.1, 100.0),
             samples: servo.integer("samples", 1, 64),
             enabled: servo.flag("enabled"),
             mode: servo.choice("mode", [("stiff", 1), ("soft", 2)]),
             order: servo.order("order", [("angle", 'q'), ("rate", 'v'), ("torque", 't')]),
-            pushes: root.tables("push").iter().map(|push| push.number("force_n").any()).collect(),
+            pushes: root.tables("push").iter().map(|push| push.number("force_n").between(-1e3, 1e3)).collect(),
         }
     }
 }

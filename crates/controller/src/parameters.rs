@@ -52,7 +52,7 @@ fn gait(gait: &Table, limits: &Table) -> GaitParameters {
     let ramps = [("linear", RampKind::Linear), ("quintic", RampKind::Quintic)];
     GaitParameters {
         ramp: gait.choice("ramp", ramps).unwrap_or(RampKind::Quintic),
-        speed_ramp: gait.duration("speed_ramp_s"),
+        speed_ramp: gait.duration("speed_ramp_s", 0.01, 60.0),
         limits: Limits {
             turn_max: limits.angle("turn_max_deg").between(0.0, 45.0),
             speed_min: limits.number("speed_min").between(0.05, 1.0),
@@ -65,26 +65,26 @@ fn gait(gait: &Table, limits: &Table) -> GaitParameters {
 
 fn zmp(table: &Table) -> ZmpParameters {
     ZmpParameters {
-        force_min: table.number("force_min_n").positive(),
-        time_constant: table.number("time_constant_s").not_negative(),
+        force_min: table.number("force_min_n").between(0.01, 2000.0),
+        time_constant: table.number("time_constant_s").between(0.0, 1.0),
     }
 }
 
 fn feedback(table: &Table) -> FeedbackParameters {
     FeedbackParameters {
         gain: table.number("gain").between(0.0, 20.0),
-        ankle_stiffness: table.number("ankle_stiffness_n_m_per_rad").positive(),
-        edge: table.number("edge_m").not_negative(),
-        foot_damping_time_constant: table.number("zmp_lag_s").positive(),
-        support_ankle_time_constant: table.number("lag_s").positive(),
-        swing_ankle_time_constant: table.number("fade_s").positive(),
+        ankle_stiffness: table.number("ankle_stiffness_n_m_per_rad").between(1.0, 1e6),
+        edge: table.number("edge_m").between(0.0, 0.1),
+        foot_damping_time_constant: table.number("zmp_lag_s").between(1e-4, 10.0),
+        support_ankle_time_constant: table.number("lag_s").between(1e-4, 10.0),
+        swing_ankle_time_constant: table.number("fade_s").between(1e-4, 10.0),
     }
 }
 
 fn landing(table: &Table) -> LandingParameters {
     LandingParameters {
-        damping: table.number("damping_n_s_per_m").positive(),
-        return_time: table.number("return_time_s").positive(),
+        damping: table.number("damping_n_s_per_m").between(0.1, 1e6),
+        return_time: table.number("return_time_s").between(1e-3, 10.0),
     }
 }
 
@@ -97,29 +97,36 @@ fn feasibility(table: &Table) -> FeasibilityParameters {
 
 /// The thresholds besides timeout and tilt may be left out.
 fn validator(table: &Table) -> ValidatorParameters {
-    let timeout = table.number("silence_max_s").positive();
+    let timeout = table.number("silence_max_s").between(0.005, 1.0);
     let tilt_max = table.angle("tilt_max_deg").between(5.0, 90.0);
     let default = ValidatorParameters::with_default_thresholds(timeout, tilt_max);
-    let positive = |key, default| if table.has(key) { table.number(key).positive() } else { default };
+    let optional = |key, [min, max]: [f64; 2], default| {
+        if table.has(key) { table.number(key).between(min, max) } else { default }
+    };
+    let consistency = default.consistency;
     ValidatorParameters {
         timeout,
         tilt_max,
-        fall_confirmation: positive("fall_confirmation_s", default.fall_confirmation),
-        angle_tolerance: positive("angle_tolerance_rad", default.angle_tolerance),
-        rate_factor_max: positive("rate_factor_max", default.rate_factor_max),
-        trunk_rate_max: positive("trunk_rate_max_rad_per_s", default.trunk_rate_max),
-        load_factor_max: positive("load_factor_max", default.load_factor_max),
-        orientation_jump_max: positive("orientation_jump_max_rad", default.orientation_jump_max),
-        trunk_rate_jump_max: positive("trunk_rate_jump_max_rad_per_s", default.trunk_rate_jump_max),
-        gyro_horizon: positive("gyro_horizon_s", default.gyro_horizon),
+        fall_confirmation: optional("fall_confirmation_s", [1e-3, 1.0], default.fall_confirmation),
+        angle_tolerance: optional("angle_tolerance_rad", [1e-3, 3.2], default.angle_tolerance),
+        rate_factor_max: optional("rate_factor_max", [1.0, 100.0], default.rate_factor_max),
+        trunk_rate_max: optional("trunk_rate_max_rad_per_s", [0.1, 1000.0], default.trunk_rate_max),
+        load_factor_max: optional("load_factor_max", [1.0, 1000.0], default.load_factor_max),
+        orientation_jump_max: optional("orientation_jump_max_rad", [1e-3, 3.2], default.orientation_jump_max),
+        trunk_rate_jump_max: optional("trunk_rate_jump_max_rad_per_s", [0.01, 1000.0], default.trunk_rate_jump_max),
+        gyro_horizon: optional("gyro_horizon_s", [1e-3, 10.0], default.gyro_horizon),
         consistency: ConsistencyParameters {
-            orientation_error_max: positive("orientation_error_max_rad", default.consistency.orientation_error_max),
-            tracking_error_max: positive("tracking_error_max_rad", default.consistency.tracking_error_max),
-            tracking_bias_max: positive("tracking_bias_max_rad", default.consistency.tracking_bias_max),
-            rate_error_max: positive("rate_error_max_rad", default.consistency.rate_error_max),
+            orientation_error_max: optional(
+                "orientation_error_max_rad",
+                [1e-4, 3.2],
+                consistency.orientation_error_max,
+            ),
+            tracking_error_max: optional("tracking_error_max_rad", [1e-3, 3.2], consistency.tracking_error_max),
+            tracking_bias_max: optional("tracking_bias_max_rad", [1e-3, 3.2], consistency.tracking_bias_max),
+            rate_error_max: optional("rate_error_max_rad", [1e-3, 3.2], consistency.rate_error_max),
             load_share: [
-                positive("load_share_min", default.consistency.load_share[0]),
-                positive("load_share_max", default.consistency.load_share[1]),
+                optional("load_share_min", [0.0, 1.0], consistency.load_share[0]),
+                optional("load_share_max", [1.0, 100.0], consistency.load_share[1]),
             ],
         },
     }

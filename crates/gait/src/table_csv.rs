@@ -22,6 +22,11 @@ const MECHANISM: &str = "# mechanism: ";
 /// Beginning of the fourth line of the header, before the duration.
 const DURATION: &str = "# duration_s = ";
 
+/// Shortest and longest half-step (s).
+const DURATION_MIN: f64 = 0.05;
+const DURATION_MAX: f64 = 10.0;
+/// Most rows: a hundred times as many as ours.
+const ROWS_MAX: usize = 10_000;
 /// Largest difference of a row's time from the one that follows from the duration (s): a spreadsheet may round.
 const TIME_TOLERANCE: f64 = 1e-6;
 
@@ -85,6 +90,24 @@ pub enum TableFileError {
         /// Number of values that it must have.
         expected: usize,
     },
+    /// The file ends before the half-step does.
+    #[error("{file}:{line}: the file ends early: {found}; copy it again, or make it anew", file = file.display())]
+    EndsEarly {
+        /// The file.
+        file: PathBuf,
+        /// The last line.
+        line: u64,
+        /// How far the file goes, and how far it should go.
+        found: String,
+    },
+    /// The table is too long.
+    #[error("{file}: has {found} rows; it may have at most {ROWS_MAX}", file = file.display())]
+    TooManyRows {
+        /// The file.
+        file: PathBuf,
+        /// Number of rows.
+        found: usize,
+    },
     /// A value is wrong.
     #[error("{file}:{line}: {column} is `{value}`; it must be {expected}", file = file.display())]
     Value {
@@ -119,7 +142,7 @@ impl NominalTable {
     /// # Errors
     /// The file cannot be read, or the first mistake in it.
     pub fn read_csv(file: &Path) -> Result<Self, TableFileError> {
-        let text = std::fs::read_to_string(file).map_err(|source| TableFileError::Io { file: file.into(), source })?;
+        let text = config::bounded_text(file).map_err(|source| TableFileError::Io { file: file.into(), source })?;
         Self::from_csv(&text, file)
     }
 
@@ -179,9 +202,15 @@ impl NominalTable {
             let (found, expected) = (first.get(column).unwrap_or(""), names.get(column).map_or("", String::as_str));
             if found != expected {
                 let (line, column) = (line_of(&first), column + 1);
-                let (file, found, expected) = (file.into(), found.into(), expected.into());
+                let (file, found, expected) = (file.into(), config::quoted(found), expected.into());
                 return Err(TableFileError::ColumnName { file, line, column, found, expected });
             }
+        }
+        if rows.len() > ROWS_MAX {
+            return Err(TableFileError::TooManyRows { file: file.into(), found: rows.len() });
+        }
+        if let Some((line, found)) = early_end(text, rows, names.len(), table.duration) {
+            return Err(TableFileError::EndsEarly { file: file.into(), line, found });
         }
         for (interval, record) in rows.iter().enumerate() {
             let expected_time = table.time(interval, rows.len());
@@ -196,6 +225,23 @@ impl NominalTable {
     }
 }
 
+/// The last line, and in words how far the file goes, if it was cut off: in the midst of a row, or after one.
+fn early_end(text: &str, rows: &[csv::StringRecord], columns: usize, duration: f64) -> Option<(u64, String)> {
+    let last = rows.last()?;
+    let line = line_of(last);
+    if !text.ends_with('\n') && last.len() < columns {
+        return Some((line, format!("its last row has {} of {columns} values", last.len())));
+    }
+    let time = |row: &csv::StringRecord| row.get(1)?.parse::<f64>().ok();
+    let (step, end) = (time(rows.get(1)?)?, time(last)?);
+    let is_short = end > 0.0 && end < duration - step / 2.0;
+    let is_even = || {
+        let mut times = rows.iter().enumerate().map(|(interval, row)| (step * interval as f64, time(row)));
+        times.all(|(expected, time)| time.is_some_and(|time| (time - expected).abs() < TIME_TOLERANCE))
+    };
+    (is_short && is_even()).then(|| (line, format!("its last row is at {end} s of {duration} s")))
+}
+
 /// A table without rows, from the four `#` lines.
 fn read_header(text: &str, file: &Path) -> Result<NominalTable, TableFileError> {
     let mut lines = text.lines();
@@ -204,14 +250,14 @@ fn read_header(text: &str, file: &Path) -> Result<NominalTable, TableFileError> 
         found.strip_prefix(prefix).map(str::to_owned).ok_or_else(|| TableFileError::Header {
             file: file.into(),
             line,
-            found: found.into(),
+            found: config::quoted(found),
             expected: format!("`{prefix}{what}`"),
         })
     };
     let bad = |line: u64, prefix: &str, found: &str, what: &str| TableFileError::Header {
         file: file.into(),
         line,
-        found: format!("{prefix}{found}"),
+        found: config::quoted(&format!("{prefix}{found}")),
         expected: format!("`{prefix}` and then {what}"),
     };
     let version = after(1, VERSION, "")?;
@@ -227,8 +273,11 @@ fn read_header(text: &str, file: &Path) -> Result<NominalTable, TableFileError> 
         duration: duration
             .parse()
             .ok()
-            .filter(|seconds: &f64| seconds.is_finite() && *seconds > 0.0)
-            .ok_or_else(|| bad(4, DURATION, &duration, "a positive number of seconds, like 0.6"))?,
+            .filter(|seconds: &f64| (DURATION_MIN..=DURATION_MAX).contains(seconds))
+            .ok_or_else(|| {
+                let what = format!("a number of seconds between {DURATION_MIN} and {DURATION_MAX}, like 0.6");
+                bad(4, DURATION, &duration, &what)
+            })?,
         made_by,
         rows: Vec::new(),
     })
@@ -247,7 +296,7 @@ fn read_row(
         return Err(TableFileError::RowLength { file: file.into(), line, found, expected });
     }
     let wrong = |column: usize, expected: String| {
-        let (column, value) = (names[column].clone(), record[column].to_owned());
+        let (column, value) = (names[column].clone(), config::quoted(&record[column]));
         TableFileError::Value { file: file.into(), line, column, value, expected }
     };
     let number = |column: usize| {
@@ -261,7 +310,11 @@ fn read_row(
     if (number(1)? - time).abs() > TIME_TOLERANCE {
         return Err(wrong(1, format!("{time:?}: rows are equally spaced from 0 to the duration")));
     }
-    let numbers = (2..names.len()).map(number).collect::<Result<Vec<_>, _>>()?;
+    let in_range = |column: usize| {
+        let (number, max) = (number(column)?, largest(column));
+        if number.abs() > max { Err(wrong(column, format!("between -{max} and {max}"))) } else { Ok(number) }
+    };
+    let numbers = (2..names.len()).map(in_range).collect::<Result<Vec<_>, _>>()?;
     let joints = |quantity: usize| -> JointVector {
         PerJoint::from_fn(|joint| numbers[quantity * Joint::COUNT + joint.index()])
     };
@@ -277,6 +330,13 @@ fn read_row(
         ground_gravity: ground(0),
         ground_dynamic: ground(1),
     })
+}
+
+/// The largest value of a column, either way: far more than any robot does.
+fn largest(column: usize) -> f64 {
+    const LARGEST: [f64; JOINT_QUANTITIES.len()] = [6.3, 100.0, 1e5, 1e6, 1e6];
+    const LARGEST_OF_GROUND: f64 = 1e7;
+    LARGEST.get(column.saturating_sub(2) / Joint::COUNT).copied().unwrap_or(LARGEST_OF_GROUND)
 }
 
 /// The names of all columns, from left to right.

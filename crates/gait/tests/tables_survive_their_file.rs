@@ -72,8 +72,8 @@ fn mistakes_in_a_nominal_file_are_reported_with_their_place() {
     );
     assert_eq!(
         message("# duration_s = 0.6", "# duration_s = -0.6"),
-        "nominal.csv:4: the header says `# duration_s = -0.6` where it must say `# duration_s = ` and then a positive \
-         number of seconds, like 0.6"
+        "nominal.csv:4: the header says `# duration_s = -0.6` where it must say `# duration_s = ` and then a \
+         number of seconds between 0.05 and 10, like 0.6"
     );
     assert_eq!(
         message("joint_02_angle_rad", "joint_2"),

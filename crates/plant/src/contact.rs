@@ -69,11 +69,11 @@ impl ContactParameters {
     /// Reads the table `[contact]`.
     pub(crate) fn read(table: &Table) -> Self {
         Self {
-            stiffness: table.number("stiffness_n_per_m").positive(),
-            damping: table.number("damping_n_s_per_m").not_negative(),
-            stiffness_tangential: table.number("stiffness_tangential_n_per_m").positive(),
-            damping_tangential: table.number("damping_tangential_n_s_per_m").not_negative(),
-            friction: table.number("friction").not_negative(),
+            stiffness: table.number("stiffness_n_per_m").between(1e3, 1e8),
+            damping: table.number("damping_n_s_per_m").between(0.0, 1e6),
+            stiffness_tangential: table.number("stiffness_tangential_n_per_m").between(1e3, 1e8),
+            damping_tangential: table.number("damping_tangential_n_s_per_m").between(0.0, 1e6),
+            friction: table.number("friction").between(0.0, 10.0),
         }
     }
 }

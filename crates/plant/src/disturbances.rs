@@ -32,6 +32,8 @@ pub struct Disturbances {
 
 /// Latest time in a script (s); a later one is a mistake of unit.
 const TIME_MAX: f64 = 1e6;
+/// Shortest disturbance (s), shorter than a step of the plant at any rate.
+const LASTS_MIN: f64 = 1e-6;
 /// Largest component of an impulse (N·s), far more than fells any robot; a larger one is a mistake of unit.
 const IMPULSE_MAX: f64 = 1e4;
 /// The groups of sensed values by their names in a script.
@@ -81,12 +83,13 @@ fn push(table: &Table) -> Push {
         },
         impulse: table.numbers("impulse_n_s").that(in_reach, &must).into(),
         start: table.number("at_s").between(0.0, TIME_MAX),
-        duration: table.duration("lasts_s").as_secs_f64(),
+        duration: table.duration("lasts_s", LASTS_MIN, TIME_MAX).as_secs_f64(),
     }
 }
 
 fn sensor_fault(table: &Table) -> Option<SensorFault> {
-    let (start, duration) = (table.number("at_s").between(0.0, TIME_MAX), table.duration("lasts_s").as_secs_f64());
+    let (start, duration) =
+        (table.number("at_s").between(0.0, TIME_MAX), table.duration("lasts_s", LASTS_MIN, TIME_MAX).as_secs_f64());
     let kinds = [
         ("freeze", Kind::Freeze),
         ("nan", Kind::NotANumber),
@@ -156,10 +159,10 @@ fn values(table: &Table) -> Option<SensedValues> {
 /// Size of a spike, of a drift within a second, or of the range of a saturated sensor, in the unit of its values.
 fn size(table: &Table, values: SensedValues) -> f64 {
     match values {
-        SensedValues::Angles(_) | SensedValues::Orientation => table.angle("size_deg").any(),
-        SensedValues::Rates(_) | SensedValues::AngularRate => table.angle("size_deg_per_s").any(),
-        SensedValues::Feet(_) => table.number("size_n").any(),
-        SensedValues::Currents(_) => table.number("size_a").any(),
+        SensedValues::Angles(_) | SensedValues::Orientation => table.angle("size_deg").between(-360.0, 360.0),
+        SensedValues::Rates(_) | SensedValues::AngularRate => table.angle("size_deg_per_s").between(-1e6, 1e6),
+        SensedValues::Feet(_) => table.number("size_n").between(-1e7, 1e7),
+        SensedValues::Currents(_) => table.number("size_a").between(-1e6, 1e6),
         SensedValues::All => {
             table.refuse("values", "must say which values have the size: \"all\" have no unit in common");
             f64::NAN

@@ -38,8 +38,8 @@ impl ServoParameters {
     /// Reads a table of `[servo]`.
     pub(crate) fn read(table: &Table) -> Self {
         Self {
-            stiffness: table.number("stiffness_n_m_per_rad").not_negative(),
-            damping: table.number("damping_n_m_s_per_rad").not_negative(),
+            stiffness: table.number("stiffness_n_m_per_rad").between(0.0, 1e6),
+            damping: table.number("damping_n_m_s_per_rad").between(0.0, 1e5),
         }
     }
 }

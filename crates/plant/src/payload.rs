@@ -19,7 +19,7 @@ pub struct Payload {
 impl Payload {
     /// Reads the table `[payload]`.
     pub(crate) fn read(table: &Table) -> Self {
-        Self { mass: table.number("mass_kg").not_negative(), at: table.numbers("at_m").any().into() }
+        Self { mass: table.number("mass_kg").between(0.0, 1000.0), at: table.numbers("at_m").between(-3.0, 3.0).into() }
     }
 
     /// The load on the trunk: gravity and inertia of a point, `m·(g − a)`.

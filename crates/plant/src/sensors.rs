@@ -55,13 +55,13 @@ impl SensorParameters {
     pub(crate) fn read(table: &Table) -> Self {
         Self {
             delay_periods: table.integer("delay_periods", 0, Sensors::DELAY_MAX as u64) as u32,
-            angle_resolution: table.angle("angle_resolution_deg").not_negative(),
-            rate_noise: table.angle("rate_noise_deg_per_s").not_negative(),
-            force_noise: table.number("force_noise_n").not_negative(),
-            moment_noise: table.number("moment_noise_n_m").not_negative(),
-            orientation_noise: table.angle("orientation_noise_deg").not_negative(),
-            angular_rate_noise: table.angle("angular_rate_noise_deg_per_s").not_negative(),
-            current_noise: table.number("current_noise_a").not_negative(),
+            angle_resolution: table.angle("angle_resolution_deg").between(0.0, 10.0),
+            rate_noise: table.angle("rate_noise_deg_per_s").between(0.0, 1000.0),
+            force_noise: table.number("force_noise_n").between(0.0, 1e4),
+            moment_noise: table.number("moment_noise_n_m").between(0.0, 1e3),
+            orientation_noise: table.angle("orientation_noise_deg").between(0.0, 45.0),
+            angular_rate_noise: table.angle("angular_rate_noise_deg_per_s").between(0.0, 1000.0),
+            current_noise: table.number("current_noise_a").between(0.0, 1000.0),
         }
     }
 }

@@ -5,6 +5,9 @@ use nalgebra::Vector2;
 
 use crate::robot_sized::EVEN_HALF_EDGE;
 
+/// Greatest height of a tile (m): twice as much, from a low tile to a high one, is more than any foot clears.
+const HEIGHT_MAX: f64 = 0.1;
+
 /// Unevenness of the floor; table `[unevenness]` of `config/plant.toml`. Around the world's origin, where the walk
 /// begins, the floor is even.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,7 +21,12 @@ pub struct Unevenness {
 impl Unevenness {
     /// Reads the table `[unevenness]`.
     pub(crate) fn read(table: &Table) -> Self {
-        Self { height: table.number("height_m").not_negative(), tile: table.number("tile_m").positive() }
+        let tile = table.number("tile_m").between(0.01, 100.0);
+        let height = table.number("height_m").between(0.0, HEIGHT_MAX);
+        if height > tile {
+            table.refuse("height_m", &format!("must be at most tile_m, which is {tile}"));
+        }
+        Self { height, tile }
     }
 
     /// Height of the floor at a place in the world (m); every seed has its own tiles.

@@ -70,7 +70,7 @@ impl GaitRecording {
     /// # Errors
     /// [`GaitRecordingError`] names file, line, column and value, and what would be right.
     pub fn load(file: &Path) -> Result<Self, GaitRecordingError> {
-        let text = std::fs::read_to_string(file)
+        let text = config::bounded_text(file)
             .map_err(|error| GaitRecordingError::Unreadable { file: file.to_owned(), reason: error.to_string() })?;
         Self::parse(&text, file)
     }
@@ -93,7 +93,7 @@ impl GaitRecording {
                     return Err(GaitRecordingError::WrongHeader {
                         file: file.to_owned(),
                         line,
-                        found: text.to_owned(),
+                        found: config::quoted(text),
                     });
                 }
                 header_seen = true;
@@ -152,7 +152,7 @@ fn wrong_value(file: &Path, line: usize, column: usize, value: &str, expected: S
         file: file.to_owned(),
         line,
         column: COLUMNS[column],
-        value: value.to_owned(),
+        value: config::quoted(value),
         expected,
     }
 }

@@ -123,25 +123,25 @@ fn mapped(table: &Table, motors: &[(String, Motor)], taken: &mut Taken) -> Optio
     let choices = motors.iter().enumerate().map(|(place, (name, _))| (name.as_str(), place));
     let motor = table.choice("motor", choices);
     Some(Mapped {
-        straight: if table.has("straight_deg") { table.angle("straight_deg").any() } else { 0.0 },
-        range: table.has("range_deg").then(|| table.angles("range_deg").increasing()),
-        rate_max: table.has("rate_max_deg_per_s").then(|| table.angle("rate_max_deg_per_s").positive()),
+        straight: if table.has("straight_deg") { table.angle("straight_deg").between(-360.0, 360.0) } else { 0.0 },
+        range: table.has("range_deg").then(|| table.angles("range_deg").increasing_between(-720.0, 720.0)),
+        rate_max: table.has("rate_max_deg_per_s").then(|| table.angle("rate_max_deg_per_s").between(0.1, 1e4)),
         index: index?,
         motor: motor?,
     })
 }
 
 fn fixed(table: &Table, taken: &mut Taken) -> Option<(usize, f64)> {
-    let angle = if table.has("at_deg") { table.angle("at_deg").any() } else { 0.0 };
+    let angle = if table.has("at_deg") { table.angle("at_deg").between(-360.0, 360.0) } else { 0.0 };
     Some((taken.take(table, "urdf")?, angle))
 }
 
 fn idealise(table: &Table) -> Idealise {
     let share = |key| table.number(key).between(0.0, 1.0);
     Idealise {
-        axes_moved_max: table.number("axes_moved_max_m").not_negative(),
+        axes_moved_max: table.number("axes_moved_max_m").between(0.0, 1.0),
         products_of_inertia_max: share("products_of_inertia_max_share"),
-        asymmetry_max: table.number("asymmetry_max_m").not_negative(),
+        asymmetry_max: table.number("asymmetry_max_m").between(0.0, 1.0),
         asymmetry_share_max: share("asymmetry_max_share"),
     }
 }

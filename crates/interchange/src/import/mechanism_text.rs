@@ -24,7 +24,11 @@ pub(super) fn write(biped: &StraightBiped, map: &JointMap, urdf_file: &str) -> S
     let ankle = biped.hinges[Joint::RightAnkleRoll].place;
     // O is on the floor under the right ankle.
     let floor = Vector3::new(ankle.x, ankle.y, ankle.z - sole.ankle_height);
-    let on_grid = |point: Vector3<f64>| (point - floor).map(|value| (value * PER_UNIT).round() / PER_UNIT);
+    // Rounded from the plane of symmetry, y = 0, so that mirrored points stay mirrored.
+    let rounded = |point: Vector3<f64>| point.map(|value| (value * PER_UNIT).round() / PER_UNIT);
+    let on_grid = |point: Vector3<f64>| {
+        rounded(point - Vector3::new(floor.x, 0.0, floor.z)) - rounded(Vector3::new(0.0, floor.y, 0.0))
+    };
 
     let keys = [
         ("behind_m", sole.behind),

@@ -17,6 +17,7 @@ mod straight_biped;
 mod straight_legs;
 mod symmetry;
 mod topology;
+mod urdf_text;
 
 use config::Config;
 use model::Mechanism;
@@ -43,8 +44,7 @@ pub struct Imported {
 /// All mistakes in the map, with their lines; else everything in the URDF that a mechanism cannot have, with link or
 /// joint, value, and remedy.
 pub fn import(urdf: NamedText, map: NamedText) -> Result<Imported, ImportError> {
-    let robot = urdf_rs::read_from_string(urdf.text)
-        .map_err(|error| ImportError::new(format!("{}: no URDF: {error}", urdf.file)))?;
+    let robot = urdf_text::read(urdf)?;
     let map = JointMap::read(map, &robot).map_err(ImportError::new)?;
 
     let mut errors = FileErrors { file: urdf.file, errors: Vec::new() };

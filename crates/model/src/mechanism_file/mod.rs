@@ -10,6 +10,16 @@ use nalgebra::{Unit, Vector3};
 
 use crate::{Body, Joint, JointLimits, Link, Mechanism, Motor, PerJoint, Sole};
 
+/// Largest distance between two joints, or of a centre of mass from its joint (m).
+const LENGTH_MAX: f64 = 3.0;
+/// Largest mass of a link (kg).
+const MASS_MAX: f64 = 1000.0;
+/// Smallest and largest moment of inertia of a link (kg·m²).
+const MOMENT_MIN: f64 = 1e-10;
+const MOMENT_MAX: f64 = 1000.0;
+/// Largest inertia of a rotor at its joint (kg·m²).
+const REFLECTED_INERTIA_MAX: f64 = 100.0;
+
 /// Beside keys and values that are wrong by themselves, a file is refused for a broken tree, axes that are not unit
 /// vectors, impossible inertias, joints faster than their motors, and a robot that is not left–right symmetric.
 impl Config for Mechanism {
@@ -33,10 +43,10 @@ impl Sole {
     /// Reads a table `[sole]`, noting what is wrong.
     pub fn read(table: &Table) -> Self {
         Self {
-            behind: table.number("behind_m").positive(),
-            ahead: table.number("ahead_m").positive(),
-            half_width: table.number("width_m").positive() / 2.0,
-            ankle_height: table.number("ankle_height_m").not_negative(),
+            behind: table.number("behind_m").between(1e-3, 2.0),
+            ahead: table.number("ahead_m").between(1e-3, 2.0),
+            half_width: table.number("width_m").between(1e-3, 2.0) / 2.0,
+            ankle_height: table.number("ankle_height_m").between(0.0, 1.0),
         }
     }
 }
@@ -49,13 +59,22 @@ impl Motor {
     }
 
     fn read(table: &Table) -> Self {
-        Self {
-            resistance: table.number("resistance_ohm").positive(),
-            torque_constant: table.number("torque_constant_n_m_per_a").positive(),
-            gear_ratio: table.number("gear_ratio").positive(),
-            rotor_inertia: table.number("rotor_inertia_kg_m2").positive(),
-            voltage_max: table.number("voltage_max_v").positive(),
+        let motor = Self {
+            resistance: table.number("resistance_ohm").between(1e-3, 1e4),
+            torque_constant: table.number("torque_constant_n_m_per_a").between(1e-5, 100.0),
+            gear_ratio: table.number("gear_ratio").between(0.01, 1e4),
+            rotor_inertia: table.number("rotor_inertia_kg_m2").between(1e-12, 1.0),
+            voltage_max: table.number("voltage_max_v").between(0.1, 1000.0),
+        };
+        let reflected = motor.reflected_inertia();
+        if reflected > REFLECTED_INERTIA_MAX {
+            let must = format!(
+                "must be smaller: times gear_ratio² it is {reflected:.0} kg·m² at the joint, and may be at most \
+                 {REFLECTED_INERTIA_MAX}"
+            );
+            table.refuse("rotor_inertia_kg_m2", &must);
         }
+        motor
     }
 }
 
@@ -65,7 +84,7 @@ fn link(joint: Joint, table: &Table, motors: &[(&str, Motor)]) -> Link {
     let parent = parent(joint, table);
     let is_unit = |axis: &[f64; 3]| (Vector3::from(*axis).norm() - 1.0).abs() <= 1e-9;
     let axis = Vector3::from(table.numbers("axis").that(is_unit, "must be a unit vector such as [0, 1, 0]"));
-    let origin = Vector3::from(table.numbers("origin_m").any());
+    let origin = Vector3::from(table.numbers("origin_m").between(-LENGTH_MAX, LENGTH_MAX));
 
     // Between foot and ground there is no body, only an axis.
     let body = if joint == Joint::FootRoll { Body::NONE } else { body(table) };
@@ -100,24 +119,28 @@ fn body(table: &Table) -> Body {
         return Body::NONE;
     }
     Body {
-        mass: table.number("mass_kg").positive(),
-        com: table.numbers("com_m").any().into(),
+        mass: table.number("mass_kg").between(1e-4, MASS_MAX),
+        com: table.numbers("com_m").between(-LENGTH_MAX, LENGTH_MAX).into(),
         inertia: table
             .numbers("inertia_kg_m2")
             .that(
                 |moments| {
                     let sum: f64 = moments.iter().sum();
-                    moments.iter().all(|&moment| moment > 0.0 && moment <= sum - moment)
+                    let right = |moment: f64| (MOMENT_MIN..=MOMENT_MAX).contains(&moment) && moment <= sum - moment;
+                    moments.iter().all(|&moment| right(moment))
                 },
-                "must be three principal moments, each greater than 0 and at most the sum of the other two",
+                &format!(
+                    "must be three principal moments, each between {MOMENT_MIN} and {MOMENT_MAX} and at most the sum \
+                     of the other two"
+                ),
             )
             .into(),
     }
 }
 
 fn drive(table: &Table, motors: &[(&str, Motor)]) -> (Option<JointLimits>, Option<Motor>) {
-    let [angle_min, angle_max] = table.angles("range_deg").increasing();
-    let rate_max = table.angle("rate_max_deg_per_s").positive();
+    let [angle_min, angle_max] = table.angles("range_deg").increasing_between(-720.0, 720.0);
+    let rate_max = table.angle("rate_max_deg_per_s").between(0.1, 1e4);
     let motor = table.choice("motor", motors.iter().copied());
     if let Some(motor) = motor {
         // Without load the back-EMF takes all of the voltage.
