@@ -75,7 +75,7 @@ fn walk(ticks: u64) -> [Happened; 2] {
             });
             queue.close(&mut recorder);
             drop(recorder);
-            recorder_thread.finish().unwrap();
+            assert!(recorder_thread.finish().error.is_none());
             happened
         });
         let plant = threads.spawn(move || {
@@ -89,7 +89,7 @@ fn walk(ticks: u64) -> [Happened; 2] {
                 run.unwrap().ticks
             });
             drop(recorder);
-            recorder_thread.finish().unwrap();
+            assert!(recorder_thread.finish().error.is_none());
             happened
         });
         [controller, plant].map(|thread| thread.join().unwrap())

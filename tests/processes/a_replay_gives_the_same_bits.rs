@@ -65,7 +65,7 @@ fn a_real_time_run_replays_bit_for_bit() {
     assert!(outcome["difference"].is_null(), "{outcome}");
     // A machine so busy that the recording has gaps cannot replay what follows them.
     if summary["log_gaps"] == 0 {
-        assert_eq!((ended.code, &outcome["rest"]), (Some(0), &serde_json::Value::Null), "{outcome}");
+        assert_eq!((ended.code, &outcome["cut"]), (Some(0), &serde_json::Value::Null), "{outcome}");
         assert!(outcome["setpoints"].as_u64() > Some(1000), "{outcome}");
     }
 }

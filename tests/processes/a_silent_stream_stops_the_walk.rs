@@ -56,7 +56,7 @@ fn last_mode(command_line: &CommandLine, [controller, plant]: [Running; 2]) -> S
     }
     let log = RunLog::read(&command_line.folder().join("log")).unwrap();
     assert_eq!(log.falls().count(), 0);
-    log.controller.last().unwrap().mode.clone()
+    log.controller.last().unwrap().mode.to_owned()
 }
 
 #[test]

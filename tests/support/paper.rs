@@ -17,7 +17,7 @@ pub fn config() -> PathBuf {
 /// The committed robot with its nominal.
 pub fn robot() -> Robot {
     let mut errors = Errors::default();
-    let robot = ConfigFiles { folder: config(), mechanism: None, nominal: None }.robot(&mut errors);
+    let robot = ConfigFiles::new(config(), None, None).robot(&mut errors);
     errors.finish(robot).expect("the committed robot loads")
 }
 

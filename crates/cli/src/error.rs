@@ -105,9 +105,17 @@ impl From<plots::run_log::CsvError> for CliError {
 
 impl From<record::RecordError> for CliError {
     fn from(error: record::RecordError) -> Self {
-        use record::RecordError::{NotMcap, Nothing, OtherVersion};
+        use record::RecordError::{NotMcap, Nothing, OtherVersion, UnknownCompression, Unreadable, WrongSize};
         Self {
-            bad_input: matches!(error, Nothing { .. } | NotMcap { .. } | OtherVersion { .. }),
+            bad_input: matches!(
+                error,
+                Nothing { .. }
+                    | NotMcap { .. }
+                    | OtherVersion { .. }
+                    | UnknownCompression { .. }
+                    | Unreadable { .. }
+                    | WrongSize { .. }
+            ),
             text: error.to_string(),
         }
     }

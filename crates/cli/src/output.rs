@@ -27,12 +27,22 @@ pub(crate) fn print_line(text: impl std::fmt::Display) -> Result<(), CliError> {
         .map_err(|error| CliError::new(format!("cannot print: {error}")))
 }
 
+/// Tells the user something beside the result, on stderr. If that cannot be written, nobody reads it.
+pub(crate) fn tell(text: impl std::fmt::Display) {
+    use std::io::Write;
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
+
 /// Writes files, given by name and text, into a folder, which is created if necessary.
 pub(crate) fn write_files(folder: &Path, files: &[(&str, String)]) -> Result<(), CliError> {
     fs::create_dir_all(folder).map_err(CliError::file(folder))?;
     for (name, text) in files {
         let file = folder.join(name);
-        fs::write(&file, text).map_err(CliError::file(&file))?;
+        fs::write(&file, text).map_err(|error| {
+            // On a full disk: half a file is worse than none.
+            let _ = fs::remove_file(&file);
+            CliError::file(&file)(error)
+        })?;
     }
     Ok(())
 }

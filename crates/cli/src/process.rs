@@ -11,8 +11,8 @@ use serde::de::DeserializeOwned;
 
 use crate::error::CliError;
 
-/// How long a process may take to end after it was asked to.
-const END_TIMEOUT: Duration = Duration::from_secs(3);
+/// How long a process may take to end after it was asked to: it still writes what it has recorded, maybe to a slow disk.
+const END_TIMEOUT: Duration = Duration::from_secs(60);
 const POLL_INTERVAL: Duration = Duration::from_millis(5);
 
 /// A `halfstep` process started by this one. Dropping it ends the process.

@@ -32,6 +32,9 @@ pub(crate) struct WalkSummary {
     pub timing: Option<TimingStats>,
     /// Entries missing in the recording because its writers fell behind.
     pub log_gaps: u64,
+    /// What went wrong beside a fall, one text each: the simulation became unstable, or the run could not be recorded.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub problems: Vec<String>,
     /// Simulated time over wall-clock time.
     pub real_time_factor: f64,
 }
@@ -69,6 +72,7 @@ impl fmt::Display for WalkSummary {
             out,
             "{real_time_factor:.1} × real time, {deadline_misses} deadlines missed, {log_gaps} reports dropped"
         )?;
-        timing.map_or(Ok(()), |timing| write!(out, "\nthe controller's {timing}"))
+        timing.map_or(Ok(()), |timing| write!(out, "\nthe controller's {timing}"))?;
+        self.problems.iter().try_for_each(|problem| write!(out, "\n{problem}"))
     }
 }

@@ -5,6 +5,9 @@ use nalgebra::Vector2;
 /// Most corners of a support polygon: those of both soles.
 const CORNERS_MAX: usize = 8;
 
+/// No floor reaches farther (m).
+const FAR: f64 = 1e9;
+
 /// A convex polygon on the floor, corners counter-clockwise seen from above.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SupportPolygon {
@@ -13,9 +16,11 @@ pub struct SupportPolygon {
 
 impl SupportPolygon {
     /// The convex hull of points of the floor (m) (Andrew 1979). Points beyond the eighth are ignored: two soles have
-    /// no more.
+    /// no more. A point that is nowhere, because a coordinate is not finite or beyond all floors, counts as none.
     pub fn hull(points: impl IntoIterator<Item = Vector2<f64>>) -> Self {
-        let mut sorted: heapless::Vec<Vector2<f64>, CORNERS_MAX> = points.into_iter().take(CORNERS_MAX).collect();
+        let somewhere = |point: &Vector2<f64>| point.iter().all(|coordinate| coordinate.abs() <= FAR);
+        let points = points.into_iter().filter(somewhere);
+        let mut sorted: heapless::Vec<Vector2<f64>, CORNERS_MAX> = points.take(CORNERS_MAX).collect();
         sorted.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
 
         let mut corners = heapless::Vec::new();
@@ -65,7 +70,10 @@ fn half_hull<'a>(points: impl Iterator<Item = &'a Vector2<f64>>, hull: &mut heap
         let _ = side.push(point);
     }
     side.pop();
-    hull.extend(side);
+    for corner in side {
+        // Full only if rounding made a point a corner of both sides: then it is one of nearly the same.
+        let _ = hull.push(corner);
+    }
 }
 
 fn cross(a: Vector2<f64>, b: Vector2<f64>) -> f64 {
@@ -108,6 +116,23 @@ mod tests {
         assert_eq!(SupportPolygon::hull([]).margin(Vector2::zeros()), f64::NEG_INFINITY);
         let point = SupportPolygon::hull([Vector2::new(1.0, 0.0)]);
         assert_eq!(point.margin(Vector2::new(3.0, 0.0)), -2.0);
+    }
+
+    #[test]
+    fn points_that_are_nowhere_count_as_none() {
+        let nowhere = [f64::NAN, f64::INFINITY, -1e308, 1e10].map(|x| Vector2::new(x, 0.5));
+        let corners = square().corners.into_iter().chain(nowhere).chain([Vector2::new(0.5, f64::NAN)]);
+        assert_eq!(SupportPolygon::hull(corners), square());
+        assert_eq!(SupportPolygon::hull(nowhere).margin(Vector2::zeros()), f64::NEG_INFINITY);
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn the_hull_of_any_points_has_a_margin(bits: [[u64; 2]; 9], small: bool, point: [u64; 2]) {
+            let number = |bits: u64| if small { (bits % 5) as f64 * 0.1 } else { f64::from_bits(bits) };
+            let polygon = SupportPolygon::hull(bits.map(|bits| Vector2::from(bits.map(number))));
+            polygon.margin(Vector2::from(point.map(number)));
+        }
     }
 
     #[test]

@@ -33,6 +33,8 @@ codes! {
         JointOffSetpoint = 8192 "a joint is not where it was commanded to be",
         /// The robot is not in the posture in which the controller begins, nor in a stand; it holds its posture.
         UnexpectedPosture = 16384 "the robot is not in the posture in which the controller begins",
+        /// The run can no longer be recorded.
+        NotRecorded = 32768 "the run can no longer be recorded",
         /// The control loop missed a deadline.
         DeadlineMissed = 512 "a deadline was missed",
     }

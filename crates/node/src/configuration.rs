@@ -1,18 +1,20 @@
 //! Reads the configuration files, and reports every error of all of them at once.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::fmt::Display;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use config::Config;
+use config::{Config, ConfigErrors};
 use controller::Controller;
-use gait::{NominalTable, Robot, Start};
-use model::{Joint, Mechanism, Mirror};
+use gait::{NominalTable, Robot, Start, TableFileError};
+use model::Mechanism;
 use plant::Disturbances;
 
 use crate::cycle::Clock;
 use crate::error::NodeError;
+use crate::nominal_check::check_nominal;
 use crate::realtime::RealtimeParameters;
 
 /// Name of the mechanism's file.
@@ -28,7 +30,8 @@ pub const REALTIME: &str = "realtime.toml";
 /// Name under which a recording holds the plant's disturbances.
 pub const DISTURBANCES: &str = "disturbances.toml";
 
-/// Paths of the configuration files.
+/// The configuration files. Each is read once: what a recording holds is what was loaded, also if the file changes
+/// meanwhile.
 #[derive(Clone, Debug)]
 pub struct ConfigFiles {
     /// Folder with mechanism.toml, nominal_half_step.csv, controller.toml, plant.toml and realtime.toml.
@@ -37,6 +40,8 @@ pub struct ConfigFiles {
     pub mechanism: Option<PathBuf>,
     /// The nominal half-step's file, if not the folder's nominal_half_step.csv.
     pub nominal: Option<PathBuf>,
+    /// Texts of the files that were read.
+    texts: RefCell<BTreeMap<PathBuf, String>>,
 }
 
 /// All errors found so far, one text each.
@@ -62,14 +67,6 @@ pub fn controller(
     begin(&robot.mechanism, Arc::clone(&robot.nominal), &parameters, Start::default()).map_err(NodeError::configuration)
 }
 
-/// Reads a file's text.
-///
-/// # Errors
-/// The file cannot be read.
-pub fn read(path: &Path) -> Result<String, NodeError> {
-    fs::read_to_string(path).map_err(NodeError::file(path))
-}
-
 impl Errors {
     /// Returns the value, or notes the error and returns `None`.
     pub fn note<T, E: Display>(&mut self, result: Result<T, E>) -> Option<T> {
@@ -89,9 +86,39 @@ impl Errors {
 }
 
 impl ConfigFiles {
+    /// The files of a folder; mechanism and nominal half-step may be other files.
+    pub fn new(folder: PathBuf, mechanism: Option<PathBuf>, nominal: Option<PathBuf>) -> Self {
+        Self { folder, mechanism, nominal, texts: RefCell::default() }
+    }
+
+    /// The text of a file, read when it is asked for the first time.
+    fn text(&self, path: &Path) -> std::io::Result<String> {
+        if let Some(text) = self.texts.borrow().get(path) {
+            return Ok(text.clone());
+        }
+        let text = config::bounded_text(path)?;
+        self.texts.borrow_mut().insert(path.to_owned(), text.clone());
+        Ok(text)
+    }
+
+    fn load<C: Config>(&self, path: &Path) -> Result<C, ConfigErrors> {
+        let text = self.text(path).map_err(|reason| ConfigErrors::unreadable(path, &reason))?;
+        C::from_toml(&text, &path.display().to_string())
+    }
+
+    fn load_nominal(&self, file: &Path) -> Result<NominalTable, TableFileError> {
+        let text = self.text(file).map_err(|source| TableFileError::Io { file: file.to_owned(), source })?;
+        NominalTable::from_csv(&text, file)
+    }
+
     /// Path of the mechanism's file.
     pub fn mechanism_file(&self) -> PathBuf {
         self.mechanism.clone().unwrap_or_else(|| self.folder.join(MECHANISM))
+    }
+
+    /// Path of the plant's file.
+    pub fn plant_file(&self) -> PathBuf {
+        self.folder.join(PLANT)
     }
 
     /// Path of the nominal half-step's file.
@@ -102,84 +129,66 @@ impl ConfigFiles {
     /// Reads the mechanism and its nominal half-step, and checks that the one was made for the other.
     pub fn robot(&self, errors: &mut Errors) -> Option<Robot> {
         let (mechanism_file, nominal_file) = (self.mechanism_file(), self.nominal_file());
-        let mechanism = errors.note(Mechanism::load(&mechanism_file));
-        let nominal = errors.note(NominalTable::read_csv(&nominal_file));
+        let mechanism = errors.note(self.load::<Mechanism>(&mechanism_file));
+        let nominal = errors.note(self.load_nominal(&nominal_file));
         let (mechanism, nominal) = (mechanism?, nominal?);
         if nominal.mechanism == mechanism.fingerprint {
             check_nominal(&mechanism, &nominal, &nominal_file, errors);
         } else {
             errors.0.push(format!(
-                "{nominal_file}: made for the mechanism {:#018x}, but {mechanism_file} is {:#018x}; make one for it \
-                 with \
-                 `halfstep synthesize --mechanism {mechanism_file} --out {nominal_file}`",
+                "{}: made for the mechanism {:#018x}, but {} is {:#018x}; make one for it with `{}`",
+                nominal_file.display(),
                 nominal.mechanism,
+                mechanism_file.display(),
                 mechanism.fingerprint,
-                nominal_file = nominal_file.display(),
-                mechanism_file = mechanism_file.display(),
+                self.advice(&mechanism_file, &nominal_file),
             ));
         }
         Some(Robot { mechanism, nominal: Arc::new(nominal) })
     }
 
+    /// How to make a nominal half-step for a mechanism: for another one than the folder's in a file of its own, which
+    /// leaves the folder's as it is.
+    fn advice(&self, mechanism: &Path, nominal: &Path) -> String {
+        let synthesize = format!("halfstep synthesize --mechanism {}", mechanism.display());
+        if self.mechanism.is_none() || self.nominal.is_some() {
+            return format!("{synthesize} --out {} --force", nominal.display());
+        }
+        let stem = mechanism.file_stem().unwrap_or_default().to_string_lossy();
+        let own = mechanism.with_file_name(format!("nominal_of_{stem}.csv"));
+        format!("{synthesize} --out {0}` and use it with `--nominal {0}", own.display())
+    }
+
     /// Reads the controller's parameters.
     pub fn controller(&self, errors: &mut Errors) -> Option<controller::Parameters> {
-        errors.note(controller::Parameters::load(self.folder.join(CONTROLLER)))
+        errors.note(self.load(&self.folder.join(CONTROLLER)))
     }
 
     /// Reads what is set about the plant.
     pub fn plant(&self, errors: &mut Errors) -> Option<plant::PlantParameters> {
-        errors.note(plant::PlantParameters::load(self.folder.join(PLANT)))
+        errors.note(self.load(&self.plant_file()))
     }
 
     /// Reads the rate and the scheduling of both loops.
     pub fn realtime(&self, errors: &mut Errors) -> Option<RealtimeParameters> {
-        errors.note(RealtimeParameters::load(self.folder.join(REALTIME)))
+        errors.note(self.load(&self.folder.join(REALTIME)))
     }
 
     /// Reads the plant's disturbances; none without a file.
-    pub fn disturbances(file: Option<&Path>, errors: &mut Errors) -> Option<Disturbances> {
-        file.map_or_else(|| Some(Disturbances::default()), |file| errors.note(Disturbances::load(file)))
+    pub fn disturbances(&self, file: Option<&Path>, errors: &mut Errors) -> Option<Disturbances> {
+        file.map_or_else(|| Some(Disturbances::default()), |file| errors.note(self.load(file)))
     }
 
     /// The names and texts of a process's configuration files, for its recording: mechanism, nominal half-step, the
-    /// folder's file `parameters`, and the scheduling.
+    /// folder's file `parameters`, the scheduling, and the disturbances if there are any.
     ///
     /// # Errors
-    /// One of the files can no longer be read.
-    pub fn texts(&self, parameters: &str) -> Result<Vec<(String, String)>, NodeError> {
+    /// One of the files was not read before, and cannot be.
+    pub fn texts(&self, parameters: &str, disturbances: Option<&Path>) -> Result<Vec<(String, String)>, NodeError> {
         let (mechanism, nominal) = (self.mechanism_file(), self.nominal_file());
         let [parameters, realtime] = [parameters, REALTIME].map(|name| (name, self.folder.join(name)));
-        let files = [(MECHANISM, mechanism), (NOMINAL, nominal), parameters, realtime];
-        files.into_iter().map(|(name, path)| Ok((name.to_owned(), read(&path)?))).collect()
-    }
-}
-
-/// Notes whether the end of the half-step differs from the mirror image of its start, and for each joint where it first
-/// exceeds the joint's limits.
-fn check_nominal(mechanism: &Mechanism, nominal: &NominalTable, file: &Path, errors: &mut Errors) {
-    let file = file.display();
-    if let Some(mirror) = Mirror::new(mechanism)
-        && let Err(error) = nominal.check(&mirror)
-    {
-        errors.0.push(format!("{file}: {error}"));
-    }
-    for joint in Joint::ALL {
-        let Some(limits) = mechanism.links[joint].limits else { continue };
-        let (number, name) = (joint.number(), joint.name());
-        let (min, max) = (limits.angle_min, limits.angle_max);
-        let angles = nominal.rows.iter().map(|row| row.motion.angles[joint]).enumerate();
-        if let Some((row, angle)) = angles.into_iter().find(|(_, angle)| !(min..=max).contains(angle)) {
-            let [angle, min, max] = [angle, min, max].map(f64::to_degrees);
-            errors.0.push(format!(
-                "{file}: interval {row}: joint {number} ({name}) is at {angle:.2}°; its range is {min:.2}° to {max:.2}°"
-            ));
-        }
-        let rates = nominal.rows.iter().map(|row| row.motion.rates[joint]).enumerate();
-        if let Some((row, rate)) = rates.into_iter().find(|(_, rate)| rate.abs() > limits.rate_max) {
-            let [rate, max] = [rate, limits.rate_max].map(f64::to_degrees);
-            errors.0.push(format!(
-                "{file}: interval {row}: joint {number} ({name}) moves at {rate:.1} °/s; its limit is {max:.1} °/s"
-            ));
-        }
+        let files = [(MECHANISM, mechanism), (NOMINAL, nominal), parameters, realtime].into_iter();
+        let files = files.chain(disturbances.map(|file| (DISTURBANCES, file.to_owned())));
+        files.map(|(name, path)| Ok((name.to_owned(), self.text(&path).map_err(NodeError::file(&path))?))).collect()
     }
 }

@@ -14,6 +14,7 @@ pub mod engine;
 pub mod entry;
 pub mod error;
 pub mod interrupt;
+mod nominal_check;
 pub mod plant_loop;
 pub mod realtime;
 pub mod recorder;

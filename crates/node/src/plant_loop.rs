@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use interface::{Measurement, Setpoint};
-use plant::Plant;
+use plant::{Instability, Plant};
 use runtime::{Rate, now_ns};
 use wire::{LatestWriter, MeasurementMessage, SetpointMessage};
 
@@ -34,6 +34,8 @@ pub struct PlantRun {
     pub wall_ns: u64,
     /// The control period in which the robot fell.
     pub fell_at: Option<u64>,
+    /// What showed that the simulation had become unstable, which ended the run.
+    pub unstable: Option<Instability>,
 }
 
 /// The loop's intervals in control periods.
@@ -54,10 +56,10 @@ impl Intervals {
     }
 }
 
-/// Runs until the cycles end or, if `end_when_fallen`, until half a second after the robot has fallen. The robot is held
-/// where it is until the first setpoint of a controller that begins as well, or that begins there: one that has been
-/// running for long commands another posture, which would throw the robot over. `step` computes the physics of one
-/// control period.
+/// Runs until the cycles end, until the simulation has become unstable or, if `end_when_fallen`, until half a second
+/// after the robot has fallen. The robot is held where it is until the first setpoint of a controller that begins as
+/// well, or that begins there: one that has been running for long commands another posture, which would throw the robot
+/// over. `step` computes the physics of one control period.
 ///
 /// # Errors
 /// In lockstep no setpoint has arrived for too long, or the physics cannot be computed.
@@ -95,6 +97,10 @@ pub fn run_plant(
             measured = pass()?;
         }
         run.ticks = cycle.tick + 1;
+        run.unstable = plant.instability();
+        if run.unstable.is_some() {
+            break;
+        }
 
         measurements.write(&MeasurementMessage::new(run.ticks, now_ns(), &measured));
         run.wall_ns = now_ns() - began_ns;

@@ -1,8 +1,10 @@
 //! Writes recordings and publishes reports in a thread of its own, so that the loops do not have to.
 
+use std::io::Write;
 use std::path::Path;
 use std::time::Duration;
 
+use interface::Fault;
 use record::{Metadata, Provenance, RecordError, RecordingWriter, RunEvent};
 use runtime::{Journal, JournalEnd, Rate};
 use wire::ReportPublisher;
@@ -30,6 +32,15 @@ pub struct RecorderThread {
     name: &'static str,
 }
 
+/// How recording went.
+#[derive(Debug)]
+pub struct Recorded {
+    /// Number of entries that were lost because the thread had fallen behind.
+    pub lost: u64,
+    /// Why the run was not recorded to its end; what was written before can be read.
+    pub error: Option<NodeError>,
+}
+
 /// Writes events to the recording, if there is one, until the first error.
 struct RecordWriter {
     recording: Option<RecordingWriter>,
@@ -55,7 +66,11 @@ pub fn of_controller(
         ControllerEvent::Request(number, message) => writer.write(number, &[RunEvent::Request(message)]),
         ControllerEvent::Reply(number, message) => writer.write(number, &[RunEvent::Reply(message)]),
         ControllerEvent::Tick(entry) => {
-            if let Err(fault) = reports.publish(&entry.report())
+            let mut report = entry.report();
+            if writer.result.is_err() {
+                report.faults |= Fault::NotRecorded.code();
+            }
+            if let Err(fault) = reports.publish(&report)
                 && std::mem::replace(&mut is_first_failure, false)
             {
                 tracing::warn!("observers do not hear everything: {fault}");
@@ -107,11 +122,17 @@ fn capacity(rate: Rate) -> usize {
 }
 
 impl RecordWriter {
-    /// Writes events of the newest tick. After the first failure nothing more is written, so that there are no gaps.
+    /// Writes events of the newest tick. The first failure is told at once, and after it nothing more is written, so that
+    /// there are no gaps.
     fn write(&mut self, number: u32, events: &[RunEvent]) {
         let time_ns = (self.rate.time(self.tick) * 1e9).round() as u64;
         if let (Some(recording), Ok(())) = (&mut self.recording, &self.result) {
             self.result = events.iter().try_for_each(|event| recording.write(time_ns, number, event));
+            if let Err(error) = &self.result {
+                let time = self.rate.time(self.tick);
+                // If even this cannot be written, the report's fault and the summary tell it.
+                let _ = writeln!(std::io::stderr(), "from {time:.3} s on the run is not recorded: {error}");
+            }
         }
     }
 }
@@ -119,30 +140,35 @@ impl RecordWriter {
 impl<E: Copy + Send + 'static> Recorder<E> {
     /// Hands an entry to the thread. When the thread has fallen behind, the entry is lost in real time; in lockstep the
     /// loop waits.
+    ///
+    /// A thread that has ended, which only a defect can bring about, is not waited for.
     pub fn push(&mut self, entry: E) {
-        while !self.journal.push(entry) && self.clock == Clock::Lockstep {
+        while !self.journal.push(entry) && self.clock == Clock::Lockstep && !self.journal.has_ended() {
             std::thread::yield_now();
         }
     }
 }
 
 impl RecorderThread {
-    /// Waits until everything is written, which needs the [`Recorder`] to be dropped. Returns the number of lost
-    /// entries, which is also noted in the recording.
-    ///
-    /// # Errors
-    /// The recording could not be written.
-    pub fn finish(self) -> Result<u64, NodeError> {
-        let written = self.thread.join();
+    /// Waits until everything is written, which needs the [`Recorder`] to be dropped. The number of lost entries is also
+    /// noted in the recording.
+    pub fn finish(self) -> Recorded {
+        let Some(written) = self.thread.join() else {
+            let error = NodeError::Thread(std::io::Error::other("the recorder's thread has ended early"));
+            return Recorded { lost: 0, error: Some(error) };
+        };
         // In lockstep a full ring meant waiting, not losing.
         let lost = if self.clock == Clock::Lockstep { 0 } else { written.dropped };
-        let writer = written.sink;
-        writer.result?;
-        if let Some(mut recording) = writer.recording {
-            recording.write_metadata(&Metadata::new(&format!("{} end", self.name), [("lost", lost.to_string())]))?;
-            recording.finish()?;
-        }
-        Ok(lost)
+        let RecordWriter { recording, result, .. } = written.sink;
+        let finished = result.and_then(|()| match recording {
+            None => Ok(()),
+            Some(mut recording) => {
+                recording
+                    .write_metadata(&Metadata::new(&format!("{} end", self.name), [("lost", lost.to_string())]))?;
+                recording.finish()
+            }
+        });
+        Recorded { lost, error: finished.err().map(NodeError::from) }
     }
 }
 

@@ -28,8 +28,10 @@ pub struct ReplayOutcome {
     pub setpoints: u64,
     /// The first setpoint that differs, if one does; nothing is compared after it.
     pub difference: Option<Difference>,
-    /// Why the replay ended before the run did, if it did.
-    pub rest: Option<String>,
+    /// Why the replay ended before the recording does, if it did: inputs of the next tick are missing.
+    pub missing: Option<String>,
+    /// Where the recording is truncated, if it is: what follows was not recorded, and cannot be compared.
+    pub cut: Option<String>,
 }
 
 /// The first value in which a recorded and a replayed setpoint differ.
@@ -87,8 +89,8 @@ pub fn replay(run: &Path) -> Result<ReplayOutcome, NodeError> {
                 RunEvent::Measurement(message) => measurement = Some(message),
                 RunEvent::Setpoint(recorded) => {
                     let (Some(tick), Some(measurement)) = (tick.take(), measurement.take()) else { continue };
-                    if let Some(missing) = replayer.missing_before(&tick) {
-                        outcome.rest = Some(missing);
+                    outcome.missing = replayer.missing_before(&tick);
+                    if outcome.missing.is_some() {
                         return Ok(outcome);
                     }
                     let replayed = replayer.tick(&tick, &measurement, recorded.time_ns);
@@ -101,7 +103,7 @@ pub fn replay(run: &Path) -> Result<ReplayOutcome, NodeError> {
                 RunEvent::Reply(_) | RunEvent::Report(_) | RunEvent::Truth(_) => {}
             }
         }
-        outcome.rest = outcome.rest.or(recording.cut());
+        outcome.cut = outcome.cut.or(recording.cut());
     }
     Ok(outcome)
 }
@@ -130,15 +132,21 @@ impl Replayer {
         Ok(Self { driver, requests: HashMap::new(), next_tick: 0 })
     }
 
-    /// Describes the ticks that are missing in the recording before a tick, if any are.
+    /// Describes what is missing in the recording to replay a tick: ticks before it, or its request.
     fn missing_before(&self, tick: &TickMessage) -> Option<String> {
-        let (from, to) = (self.next_tick, (tick.tick + 1).saturating_sub(tick.periods));
-        (from != to).then(|| format!("recording gap: ticks {from} up to {to} are missing; cannot continue"))
+        let (from, to) = (self.next_tick, tick.tick.saturating_add(1).saturating_sub(tick.periods));
+        if from != to {
+            return Some(format!("recording gap: ticks {from} up to {to} are missing; cannot continue"));
+        }
+        let request = tick.request;
+        (request != 0 && !self.requests.contains_key(&request)).then(|| {
+            format!("recording gap: request {request}, of tick {}, is missing in /requests; cannot continue", tick.tick)
+        })
     }
 
     /// Does with the controller what the loop did in a tick.
     fn tick(&mut self, tick: &TickMessage, measurement: &MeasurementMessage, time_ns: u64) -> SetpointMessage {
-        self.next_tick = tick.tick + 1;
+        self.next_tick = tick.tick.saturating_add(1);
         self.driver.worker.timing = AdmissionTiming::from_code(tick.returned);
         let request = self.requests.remove(&tick.request).and_then(|message| message.checked().ok());
         let step = self.driver.step(tick.dt, Some(&measurement.measurement()), |_| request);
@@ -167,9 +175,10 @@ impl AdmissionWorker for RecordedWorker {
 }
 
 impl ReplayOutcome {
-    /// Whether all compared setpoints are the same to the bit.
+    /// Whether all recorded setpoints were compared, and are the same to the bit. The recording may be truncated: what
+    /// was not recorded cannot differ.
     pub fn is_identical(&self) -> bool {
-        self.setpoints > 0 && self.difference.is_none()
+        self.setpoints > 0 && self.difference.is_none() && self.missing.is_none()
     }
 }
 
@@ -218,9 +227,9 @@ impl fmt::Display for ReplayOutcome {
             None if self.setpoints == 0 => write!(out, "nothing to compare: no setpoint was recorded")?,
             None => write!(out, "identical: {} setpoints", self.setpoints)?,
         }
-        match &self.rest {
-            Some(rest) => write!(out, "\nreplay incomplete: {rest}"),
-            None => Ok(()),
+        for rest in self.missing.iter().chain(&self.cut) {
+            write!(out, "\nreplay incomplete: {rest}")?;
         }
+        Ok(())
     }
 }

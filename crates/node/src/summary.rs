@@ -25,6 +25,8 @@ pub struct ControllerSummary {
     pub timing: Option<TimingStats>,
     /// Entries missing in the recording because its writer fell behind.
     pub log_gaps: u64,
+    /// Why the run was not recorded to its end; `None` if it was.
+    pub record_error: Option<String>,
 }
 
 /// Summary of a run of the plant's process.
@@ -34,6 +36,10 @@ pub struct PlantSummary {
     pub ticks: u64,
     /// When the robot fell (s).
     pub fell_at_s: Option<f64>,
+    /// How the simulation became unstable, and which settings to look at; `None` if it did not.
+    pub unstable: Option<String>,
+    /// Why the run was not recorded to its end; `None` if it was.
+    pub record_error: Option<String>,
     /// Deadlines missed.
     pub deadline_misses: u64,
     /// Entries missing in the recording because its writer fell behind.
@@ -44,7 +50,7 @@ pub struct PlantSummary {
 
 impl fmt::Display for ControllerSummary {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        let Self { ticks, half_steps, mode, requests, deadline_misses, timing, log_gaps } = self;
+        let Self { ticks, half_steps, mode, requests, deadline_misses, timing, log_gaps, record_error } = self;
         let mode = if mode.is_empty() { "never started" } else { mode };
         write!(
             out,
@@ -52,7 +58,8 @@ impl fmt::Display for ControllerSummary {
              {log_gaps} \
              reports dropped"
         )?;
-        timing.map_or(Ok(()), |timing| write!(out, "; {timing}"))
+        timing.map_or(Ok(()), |timing| write!(out, "; {timing}"))?;
+        record_error.as_ref().map_or(Ok(()), |error| write!(out, "\nnot recorded to the end: {error}"))
     }
 }
 
@@ -62,7 +69,9 @@ impl fmt::Display for PlantSummary {
         match self.fell_at_s {
             None => write!(out, "no fall"),
             Some(time) => write!(out, "fell at {time:.2} s"),
-        }
+        }?;
+        self.unstable.as_ref().map_or(Ok(()), |unstable| write!(out, "\n{unstable}"))?;
+        self.record_error.as_ref().map_or(Ok(()), |error| write!(out, "\nnot recorded to the end: {error}"))
     }
 }
 

@@ -8,6 +8,7 @@
 mod contact;
 mod disturbances;
 mod external_engine;
+mod instability;
 mod loads;
 mod mass_error;
 mod motor;
@@ -26,6 +27,7 @@ mod unevenness;
 pub use contact::{ContactParameters, FootContact, FootMotion, GroundContact};
 pub use disturbances::Disturbances;
 pub use external_engine::EngineState;
+pub use instability::Instability;
 pub use mass_error::with_mass_error;
 pub use motor::{Drive, DriveTorque, ServoParameters};
 pub use parameters::PlantParameters;

@@ -103,6 +103,11 @@ impl Plant {
         self.periods as f64 * self.period
     }
 
+    /// Length of a control period (s).
+    pub(crate) fn period(&self) -> f64 {
+        self.period
+    }
+
     /// Sets the number of integration steps of each further control period.
     pub fn set_steps_per_period(&mut self, count: u32) {
         self.parameters.steps_per_period = count;

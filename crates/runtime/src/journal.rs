@@ -44,6 +44,17 @@ struct Ring<T> {
     dropped: AtomicU64,
     /// Whether the loop has dropped its end.
     closed: AtomicBool,
+    /// Whether the thread has ended.
+    ended: AtomicBool,
+}
+
+/// Notes that the thread has ended, also by a panic.
+struct EndMark<T>(Arc<Ring<T>>);
+
+impl<T> Drop for EndMark<T> {
+    fn drop(&mut self) {
+        self.0.ended.store(true, Ordering::Release);
+    }
 }
 
 impl<T: Copy + Send + 'static> Journal<T> {
@@ -65,9 +76,11 @@ impl<T: Copy + Send + 'static> Journal<T> {
             entries: ArrayQueue::new(capacity),
             dropped: AtomicU64::new(0),
             closed: AtomicBool::new(false),
+            ended: AtomicBool::new(false),
         });
-        let reader = Arc::clone(&ring);
+        let mark = EndMark(Arc::clone(&ring));
         let thread = std::thread::Builder::new().name(name.to_owned()).spawn(move || {
+            let reader = &mark.0;
             loop {
                 // In this order: nothing is pushed after closing, so that an empty ring is the end.
                 let closed = reader.closed.load(Ordering::Acquire);
@@ -93,6 +106,11 @@ impl<T: Copy + Send + 'static> Journal<T> {
         accepted
     }
 
+    /// Whether the thread has ended though this end is open: it panicked. What is pushed now is lost.
+    pub fn has_ended(&self) -> bool {
+        self.ring.ended.load(Ordering::Acquire)
+    }
+
     /// Number of entries lost so far.
     pub fn dropped(&self) -> u64 {
         self.ring.dropped.load(Ordering::Relaxed)
@@ -106,12 +124,10 @@ impl<T: Copy + Send + 'static> Drop for Journal<T> {
 }
 
 impl<S> JournalEnd<S> {
-    /// Waits until the [`Journal`] is dropped and its last entry taken, and returns the sink.
-    ///
-    /// # Panics
-    /// If taking an entry panicked, with the same panic.
-    pub fn join(self) -> Written<S> {
-        self.thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    /// Waits until the [`Journal`] is dropped and its last entry taken, and returns the sink; `None` if taking an entry
+    /// panicked.
+    pub fn join(self) -> Option<Written<S>> {
+        self.thread.join().ok()
     }
 }
 
@@ -127,7 +143,7 @@ mod tests {
         let entries: Vec<u32> = (0..100_000).collect();
         assert!(entries.iter().all(|&entry| journal.push(entry)));
         drop(journal);
-        assert_eq!(end.join(), Written { sink: entries, dropped: 0 });
+        assert_eq!(end.join(), Some(Written { sink: entries, dropped: 0 }));
     }
 
     #[test]
@@ -150,15 +166,18 @@ mod tests {
         assert_eq!(journal.dropped(), 3);
         go_on.send(()).unwrap();
         drop(journal);
-        assert_eq!(end.join(), Written { sink: vec![0, 1, 2, 3, 4], dropped: 3 });
+        assert_eq!(end.join(), Some(Written { sink: vec![0, 1, 2, 3, 4], dropped: 3 }));
     }
 
     #[test]
-    #[should_panic(expected = "no space left")]
-    fn a_panic_in_the_thread_of_a_journal_is_propagated() {
+    fn a_journal_whose_thread_panicked_has_ended_and_nobody_waits_for_it() {
         let (mut journal, end) = Journal::open("test", 4, (), |_, _: u8| panic!("no space left")).unwrap();
+        assert!(!journal.has_ended());
         journal.push(0);
+        while !journal.has_ended() {
+            std::thread::yield_now();
+        }
         drop(journal);
-        end.join();
+        assert_eq!(end.join(), None);
     }
 }

@@ -87,6 +87,7 @@ class Fault(IntFlag):
     IN_THE_AIR = 128  # the feet bear too little force for a zero-moment point
     FALLEN = 256  # the robot has fallen
     OUT_OF_REACH = 1024  # the plan needed a foot out of a leg's reach
+    NOT_RECORDED = 32768  # the run can no longer be recorded
     DEADLINE_MISSED = 512  # a deadline was missed
 
 

@@ -81,7 +81,9 @@ fn check_others(config: &ConfigFiles, errors: &mut Errors) {
 
 fn check_script(file: &Path, errors: &mut Errors) {
     let name = file.display().to_string();
-    let Some(text) = errors.note(fs::read_to_string(file).map_err(|error| format!("{name}: {error}"))) else { return };
+    let Some(text) = errors.note(config::bounded_text(file).map_err(|error| format!("{name}: {error}"))) else {
+        return;
+    };
     if let Err(wrong) = script::Reader::read_all(name, &text) {
         errors.0.extend(wrong.iter().map(ScriptError::to_string));
     }

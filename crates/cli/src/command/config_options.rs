@@ -23,7 +23,7 @@ impl ConfigOptions {
     /// Paths of the configuration files.
     pub(super) fn files(&self) -> ConfigFiles {
         let Self { config, mechanism, nominal } = self.clone();
-        ConfigFiles { folder: config, mechanism, nominal }
+        ConfigFiles::new(config, mechanism, nominal)
     }
 
     /// The same options as arguments for another process.

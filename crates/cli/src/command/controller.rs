@@ -4,7 +4,7 @@ use std::path::Path;
 
 use controller::Driver;
 use node::admission_worker::ClockedWorker;
-use node::configuration::{self, CONTROLLER, Errors};
+use node::configuration::{self, CONTROLLER, ConfigFiles, Errors};
 use node::controller_loop::run_controller;
 use node::cycle::{Clock, Cycles};
 use node::interrupt::Interrupt;
@@ -63,7 +63,7 @@ impl ControllerArgs {
         // Who answers may run wherever there is room; who writes down has time.
         realtime.keep_off_the_loop(clock);
         let (mut recorder, recorder_thread) =
-            recorder::of_controller(clock, rate, self.recorded(rate, fingerprint)?, reports)?;
+            recorder::of_controller(clock, rate, self.recorded(&files, rate, fingerprint)?, reports)?;
 
         // Last: the other threads must not be pinned to the loop's core.
         let _granted = realtime::enter(&realtime.controller, clock, "controller");
@@ -77,7 +77,7 @@ impl ControllerArgs {
         );
         let requests = queue.close(&mut recorder);
         drop(recorder);
-        let log_gaps = recorder_thread.finish()?;
+        let recorded = recorder_thread.finish();
         let run = run.map_err(CliError::new)?;
 
         let summary = ControllerSummary {
@@ -87,16 +87,23 @@ impl ControllerArgs {
             requests,
             deadline_misses: run.missed,
             timing: (clock == Clock::Realtime).then_some(run.timing),
-            log_gaps,
+            log_gaps: recorded.lost,
+            record_error: recorded.error.map(|error| error.to_string()),
         };
         print(json, &summary)?;
-        Ok(Status::success_if(run.mode != Some(interface::Mode::Fallen)))
+        let is_recorded = summary.record_error.is_none();
+        Ok(Status::success_if(run.mode != Some(interface::Mode::Fallen) && is_recorded))
     }
 
     /// Where to record to, if anywhere, and what the run begins with.
-    fn recorded(&self, rate: Rate, fingerprint: u64) -> Result<Option<(&Path, Provenance)>, CliError> {
+    fn recorded(
+        &self,
+        files: &ConfigFiles,
+        rate: Rate,
+        fingerprint: u64,
+    ) -> Result<Option<(&Path, Provenance)>, CliError> {
         let Some(folder) = self.child.out.as_deref() else { return Ok(None) };
         let how = Metadata::new("controller", self.runs.words(&self.instance, rate, fingerprint));
-        Ok(Some((folder, Provenance { metadata: vec![how], files: self.config.files().texts(CONTROLLER)? })))
+        Ok(Some((folder, Provenance { metadata: vec![how], files: files.texts(CONTROLLER, None)? })))
     }
 }

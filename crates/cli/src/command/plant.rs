@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use gait::{Robot, Start, Walk};
 use model::Motion;
-use node::configuration::{ConfigFiles, DISTURBANCES, Errors, PLANT, read};
+use node::configuration::{ConfigFiles, Errors, PLANT};
 use node::cycle::Cycles;
 use node::engine::{self, EngineSetup, ExternalEngine};
 use node::interrupt::Interrupt;
@@ -58,9 +58,9 @@ impl PlantArgs {
         let files = self.config.files();
         let loaded = files.robot(&mut errors).zip(files.plant(&mut errors));
         let loaded = loaded.zip(files.realtime(&mut errors));
-        let disturbances = ConfigFiles::disturbances(self.disturbances.as_deref(), &mut errors);
+        let disturbances = files.disturbances(self.disturbances.as_deref(), &mut errors);
         let (((robot, parameters), realtime), disturbances) = errors.finish(loaded.zip(disturbances))?;
-        let start = if self.runs.from_stand { self.stand(&robot)? } else { robot.nominal.at(0.0) };
+        let start = if self.runs.from_stand { self.stand(&robot, &files)? } else { robot.nominal.at(0.0) };
         let period = realtime.rate.period_s();
         let mut plant = plant::Plant::new(&robot.mechanism, &parameters, &start, period, self.seed);
         let mut outside = match self.engine {
@@ -77,7 +77,7 @@ impl PlantArgs {
         let PlantPorts { setpoints, mut measurements } =
             PlantPorts::connect(&self.instance.at_rate(realtime.rate)?, robot.mechanism.fingerprint)?;
         let clock = self.runs.clock();
-        let to = self.recorded(realtime.rate, robot.mechanism.fingerprint)?;
+        let to = self.recorded(&files, realtime.rate, robot.mechanism.fingerprint)?;
         realtime.keep_off_the_loop(clock);
         let (mut recorder, recorder_thread) = recorder::of_plant(clock, realtime.rate, to)?;
         let ticks = self.runs.ticks(realtime.rate);
@@ -92,27 +92,37 @@ impl PlantArgs {
         };
         let run = run_plant(&mut plant, step, &mut cycles, &mut measurements, &mut recorder, self.end_when_fallen);
         drop(recorder);
-        let log_gaps = recorder_thread.finish()?;
+        let recorded = recorder_thread.finish();
         let run = run?;
 
         let summary = PlantSummary {
             ticks: run.ticks,
             fell_at_s: run.fell_at.map(|tick| tick as f64 * period),
             deadline_misses: run.missed,
-            log_gaps,
+            unstable: run.unstable.map(|unstable| {
+                format!(
+                    "{unstable}; look at, in {}: {}",
+                    files.plant_file().display(),
+                    plant.unstable_settings().join(", ")
+                )
+            }),
+            log_gaps: recorded.lost,
+            record_error: recorded.error.map(|error| error.to_string()),
             wall_s: run.wall_ns as f64 * 1e-9,
         };
         print(json, &summary)?;
-        Ok(Status::success_if(run.fell_at.is_none()))
+        Ok(Status::success_if(run.fell_at.is_none() && run.unstable.is_none() && summary.record_error.is_none()))
     }
 
     /// Where to record to, if anywhere, and what the run begins with.
-    fn recorded(&self, rate: Rate, fingerprint: u64) -> Result<Option<(&Path, Provenance)>, CliError> {
+    fn recorded(
+        &self,
+        files: &ConfigFiles,
+        rate: Rate,
+        fingerprint: u64,
+    ) -> Result<Option<(&Path, Provenance)>, CliError> {
         let Some(folder) = self.child.out.as_deref() else { return Ok(None) };
-        let mut files = self.config.files().texts(PLANT)?;
-        if let Some(file) = &self.disturbances {
-            files.push((DISTURBANCES.to_owned(), read(file)?));
-        }
+        let files = files.texts(PLANT, self.disturbances.as_deref())?;
         let mut how = Metadata::new("plant", self.runs.words(&self.instance, rate, fingerprint));
         how.entries.insert("seed".to_owned(), self.seed.to_string());
         how.entries.insert("engine".to_owned(), self.engine.name().to_owned());
@@ -120,9 +130,9 @@ impl PlantArgs {
     }
 
     /// The standing posture with which the controller begins, too.
-    fn stand(&self, robot: &Robot) -> Result<Motion, CliError> {
+    fn stand(&self, robot: &Robot, files: &ConfigFiles) -> Result<Motion, CliError> {
         let mut errors = Errors::default();
-        let loaded = self.config.files().controller(&mut errors);
+        let loaded = files.controller(&mut errors);
         let gait = errors.finish(loaded)?.gait;
         let walk = Walk::new(robot.nominal.clone(), &robot.mechanism, &gait, Start::default());
         let preview = PatternGenerator::standing(&robot.mechanism, walk.map_err(CliError::bad_input)?);

@@ -6,12 +6,12 @@ use config::Config;
 use model::Mechanism;
 use node::configuration::MECHANISM;
 use plots::picture;
-use plots::run_log::{RunLog, write_rows};
+use plots::run_log::{RunLog, write_csv};
 use record::provenance_of;
 use serde::Serialize;
 
 use crate::error::CliError;
-use crate::output::{print, write_files};
+use crate::output::{print, tell, write_files};
 use crate::status::Status;
 
 /// Draw the plots of a recorded run
@@ -43,6 +43,11 @@ impl PlotArgs {
             origin.file(MECHANISM).ok_or_else(|| CliError::bad_input(format!("{run}: has no {MECHANISM} attached")))?;
         let mechanism = Mechanism::from_toml(text, &format!("{run}: {MECHANISM}")).map_err(CliError::bad_input)?;
         let log = RunLog::read(&self.run)?;
+        if log.plant.is_empty() && log.controller.is_empty() {
+            let notes = log.notes.join("; ");
+            return Err(CliError::bad_input(format!("{run}: holds nothing to draw, no report and no state: {notes}")));
+        }
+        log.notes.iter().for_each(|note| tell(note));
 
         let own = if self.run.is_dir() { Some(self.run.as_path()) } else { self.run.parent() };
         let folder = self.out.clone().or_else(|| own.map(Path::to_owned)).unwrap_or_default();
@@ -50,7 +55,7 @@ impl PlotArgs {
         write_files(&folder, &pictures)?;
         let mut written: Vec<String> = pictures.iter().map(|(name, _)| (*name).to_owned()).collect();
         if self.csv {
-            let rows = [write_rows(&folder, &log.plant)?, write_rows(&folder, &log.controller)?];
+            let rows = write_csv(&self.run, &folder)?;
             written.extend(rows.iter().filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned())));
         }
         print(json, &PlotFiles { folder, files: written })?;

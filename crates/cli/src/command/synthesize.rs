@@ -26,6 +26,9 @@ pub(super) struct SynthesizeArgs {
     /// Recorded leg motion: hip and knee flexion over the gait cycle
     #[arg(long, value_name = "FILE")]
     recorded: Option<PathBuf>,
+    /// Replace another half-step in the output file
+    #[arg(long)]
+    force: bool,
     #[command(flatten)]
     parameters: ParameterOptions,
     /// Draw the half-step into this folder: stick diagram, and footprints with ZMP
@@ -94,6 +97,9 @@ impl SynthesizeArgs {
             synthesize(&mechanism, &pattern, &self.parameters.parameters(), &made_by).map_err(CliError::bad_input)?;
 
         create_parent(&self.out)?;
+        if !self.force {
+            keep_another(&synthesis.table, &self.out)?;
+        }
         synthesis.table.write_csv(&self.out).map_err(CliError::new)?;
         if let Some(folder) = &self.figures {
             draw(&synthesis.table, &mechanism, folder)?;
@@ -176,6 +182,20 @@ fn draw(table: &NominalTable, mechanism: &Mechanism, folder: &Path) -> Result<()
         ("nominal_footprints.svg", picture::nominal_footprints(table, mechanism)),
     ];
     write_files(folder, &pictures)
+}
+
+/// Refuses to replace a half-step that is not the same.
+fn keep_another(table: &NominalTable, out: &Path) -> Result<(), CliError> {
+    let same = table.to_csv().map_err(CliError::bad_input)?;
+    let Ok(existing) = fs::read(out) else { return Ok(()) };
+    if existing == same.as_bytes() {
+        return Ok(());
+    }
+    let made_by = NominalTable::read_csv(out).map_or(String::new(), |table| format!(" (made by `{}`)", table.made_by));
+    Err(CliError::bad_input(format!(
+        "{}: holds something else{made_by}; name another file with --out, or replace it with --force",
+        out.display()
+    )))
 }
 
 fn create_parent(file: &Path) -> Result<(), CliError> {

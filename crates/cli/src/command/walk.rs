@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use gait::Robot;
-use node::configuration::{ConfigFiles, Errors};
+use node::configuration::Errors;
 use node::engine;
 use node::interrupt::Interrupt;
 use node::summary::{ControllerSummary, PlantSummary};
@@ -24,7 +24,7 @@ use super::config_options::ConfigOptions;
 use super::engine::Engine;
 use super::options::LoopOptions;
 use crate::error::CliError;
-use crate::output::{print, print_line, write_files};
+use crate::output::{print, print_line, tell, write_files};
 use crate::process::Process;
 use crate::progress::Progress;
 use crate::status::Status;
@@ -83,7 +83,7 @@ impl WalkArgs {
         files.controller(&mut errors);
         files.plant(&mut errors);
         let realtime = files.realtime(&mut errors);
-        ConfigFiles::disturbances(self.disturbances.as_deref(), &mut errors);
+        files.disturbances(self.disturbances.as_deref(), &mut errors);
         let rate = realtime.map_or(Rate::clamped(wire::DEFAULT_RATE_HZ), |realtime| realtime.rate);
         let steps = self.steps(rate, &mut errors);
         let (robot, mut steps) = errors.finish(robot.zip(steps))?;
@@ -111,10 +111,10 @@ impl WalkArgs {
 
         let summary = self.conclude(&robot, rate, &instance, &folder, &controller, &plant)?;
         print(json, &summary)?;
-        if !json {
+        if !json && summary.problems.is_empty() {
             print_line(format_args!("run.mcap, summary.json and pictures are in {}", folder.display()))?;
         }
-        Ok(Status::success_if(summary.measures.falls == 0))
+        Ok(Status::success_if(summary.measures.falls == 0 && summary.problems.is_empty()))
     }
 
     /// The requests of the script that are due before the walk ends.
@@ -123,7 +123,7 @@ impl WalkArgs {
             None => Reader::read_all("built-in commands", DEMO),
             Some(file) => {
                 let name = file.display().to_string();
-                let text = errors.note(fs::read_to_string(file).map_err(|error| format!("{name}: {error}")))?;
+                let text = errors.note(config::bounded_text(file).map_err(|error| format!("{name}: {error}")))?;
                 Reader::read_all(name, &text)
             }
         };
@@ -214,14 +214,25 @@ impl WalkArgs {
         controller: &ControllerSummary,
         plant: &PlantSummary,
     ) -> Result<WalkSummary, CliError> {
+        let mut problems: Vec<String> = plant.unstable.iter().cloned().collect();
+        let unrecorded = [("controller", &controller.record_error), ("plant", &plant.record_error)];
+        problems.extend(unrecorded.iter().filter_map(|(role, error)| {
+            error.as_ref().map(|error| format!("the {role} did not record the run to its end: {error}"))
+        }));
         let parts = files_of(folder)?;
         let whole = folder.join(RUN_FILE);
-        merge(&parts, &whole)?;
-        // The merged recording has everything that they have.
-        parts.iter().filter(|part| **part != whole).for_each(|part| drop(fs::remove_file(part)));
-        let log = RunLog::read(&whole)?;
+        match merge(&parts, &whole) {
+            // The merged recording has everything that they have.
+            Ok(()) => parts.iter().filter(|part| **part != whole).for_each(|part| drop(fs::remove_file(part))),
+            Err(error) => problems.push(format!(
+                "the two recordings stay apart, in {}, where replay and plot find them: {error}",
+                folder.display()
+            )),
+        }
+        let log = RunLog::read(folder)?;
+        log.notes.iter().for_each(|note| tell(note));
         let duration_s = rate.time(plant.ticks);
-        let summary = WalkSummary {
+        let mut summary = WalkSummary {
             measures: log.measures(&robot.mechanism),
             requests: controller.requests,
             duration_s,
@@ -232,12 +243,16 @@ impl WalkArgs {
             deadline_misses: controller.deadline_misses + plant.deadline_misses,
             timing: controller.timing,
             log_gaps: controller.log_gaps + plant.log_gaps,
+            problems,
             real_time_factor: if plant.wall_s > 0.0 { duration_s / plant.wall_s } else { 0.0 },
         };
         let text = serde_json::to_string_pretty(&summary).map_err(CliError::new)?;
-        let file = folder.join("summary.json");
-        fs::write(&file, text + "\n").map_err(CliError::file(&file))?;
-        write_files(folder, &picture::of_run(&log, &robot.mechanism))?;
+        let mut files = vec![("summary.json", text + "\n")];
+        files.extend(picture::of_run(&log, &robot.mechanism));
+        // Without room for them the summary is printed at least.
+        if let Err(error) = write_files(folder, &files) {
+            summary.problems.push(error.to_string());
+        }
         Ok(summary)
     }
 }

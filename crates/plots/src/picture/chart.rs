@@ -62,6 +62,10 @@ const TICK_DISTANCE_MIN: Point = [60.0, 34.0];
 const WIDTH_OF_SCALE_1: f64 = 560.0;
 /// Least width of a map, which leaves room for legend and title (px).
 const MAP_WIDTH_MIN: f64 = 520.0;
+/// Greatest width and height of a map (px): a longer walk is drawn smaller.
+const MAP_SIZE_MAX: f64 = 40_000.0;
+/// No coordinate that is drawn is larger.
+const FAR: f64 = 1e10;
 /// Number of columns of a legend.
 const LEGEND_COLUMNS: usize = 2;
 /// Height of a legend's line, and space above and below the lines (px at scale 1).
@@ -83,10 +87,10 @@ impl Chart {
         }
     }
 
-    /// Draws a line through points, with gaps where a point is not finite.
+    /// Draws a line through points, with gaps where a point is not finite or far beyond everything.
     pub fn line(&mut self, points: impl IntoIterator<Item = Point>, pen: Pen) {
         let points: Vec<Point> = points.into_iter().collect();
-        for piece in points.split(|[x, y]| !(x.is_finite() && y.is_finite())).filter(|piece| piece.len() > 1) {
+        for piece in points.split(|point| !can_be_drawn(point)).filter(|piece| piece.len() > 1) {
             self.include(piece);
             let style = if pen.dashed { LineStyle::Custom(DASHES.into()) } else { LineStyle::Solid };
             let line = LinePlot::new().with_data(piece.iter().map(|&[x, y]| (x, y)));
@@ -95,8 +99,11 @@ impl Chart {
         }
     }
 
-    /// Draws a filled polygon; `opacity` is that of the filling, from 0 to 1.
+    /// Draws a filled polygon, unless a corner cannot be drawn; `opacity` is that of the filling, from 0 to 1.
     pub fn polygon(&mut self, corners: &[Point], pen: Pen, opacity: f64) {
+        if !corners.iter().all(can_be_drawn) {
+            return;
+        }
         self.include(corners);
         // The filling of a closed line is the polygon itself.
         let closed = corners.iter().chain(corners.first()).map(|&[x, y]| (x, y));
@@ -135,7 +142,7 @@ impl Chart {
 
     /// Extends the ranges of the chart to points without drawing them.
     pub fn include(&mut self, points: &[Point]) {
-        for &[x, y] in points {
+        for &[x, y] in points.iter().filter(|point| can_be_drawn(point)) {
             let [min, max] = self.extent.get_or_insert([[x, y], [x, y]]);
             *min = [min[0].min(x), min[1].min(y)];
             *max = [max[0].max(x), max[1].max(y)];
@@ -201,9 +208,13 @@ pub struct Panel {
 /// Width of a [`stack`] (px), which can be read on a phone.
 const STACK_WIDTH: f64 = 760.0;
 const STACK_LETTERS: f64 = 1.3;
+/// Least range of the x axis of a [`stack`], in the unit of the axis.
+const X_RANGE_MIN: f64 = 1e-3;
 
 /// Panels below each other that share the x axis, with one legend for all at the bottom.
-pub fn stack(title: &str, x_range: (f64, f64), mut panels: Vec<Panel>) -> String {
+pub fn stack(title: &str, (from, to): (f64, f64), mut panels: Vec<Panel>) -> String {
+    // An instant has no width.
+    let x_range = if to > from { (from, to) } else { (from, from + X_RANGE_MIN.max(from.abs() * f64::EPSILON * 4.0)) };
     let legend = Legend::of(panels.iter_mut().map(|panel| &mut panel.chart));
     let rows = panels.len();
     let mut figure = Figure::new(rows, 1).with_title(title).with_title_size((16.0 * STACK_LETTERS) as u32);
@@ -242,6 +253,9 @@ impl Map {
 
 /// Charts to scale, below each other, with one legend for all at the bottom.
 pub fn maps(title: &str, mut maps: Vec<Map>) -> String {
+    for map in &mut maps {
+        map.scale = map.scale.min(MAP_SIZE_MAX / map.chart.span());
+    }
     let inner: Vec<Point> =
         maps.iter().map(|map| map.ranges().map(|[least, greatest]| (greatest - least) * map.scale)).collect();
     let width = inner.iter().map(|[width, _]| *width).fold(MAP_WIDTH_MIN, f64::max);
@@ -310,6 +324,11 @@ impl Legend {
         let layout = layout.with_legend_entries(self.0).with_legend_box(false).with_legend_col_limit(LEGEND_COLUMNS);
         layout.with_legend_position(LegendPosition::OutsideBottomColumns)
     }
+}
+
+/// Whether a point is finite, and not so far off that all else would shrink to a dot.
+fn can_be_drawn(point: &Point) -> bool {
+    point.iter().all(|coordinate| coordinate.abs() <= FAR)
 }
 
 fn svg(scene: &Scene) -> String {

@@ -50,11 +50,16 @@ impl Margins {
     fn of(log: &RunLog, mechanism: &Mechanism) -> Self {
         let tree = Tree::new(mechanism);
         let at = |row: &ControllerRow| {
-            let plant = log.plant_at(row.time)?;
-            let foot = plant.footprint(mechanism, &tree, row.support);
-            let support = plant.hull_of_soles(mechanism, &tree, |side| side == row.support || plant.bears(side));
-            let planned =
-                row.zmp_planned.filter(|_| row.is_off_support_changes()).map(|zmp| support.margin(foot.to_world(zmp)));
+            let plant = log.plant_at(row.time);
+            // After the plant's end there is no sole; without its part only the measured margin is known.
+            if plant.is_none() && !log.plant.is_empty() {
+                return None;
+            }
+            let planned = row.zmp_planned.filter(|_| row.is_off_support_changes()).zip(plant).map(|(zmp, plant)| {
+                let foot = plant.footprint(mechanism, &tree, row.support);
+                let support = plant.hull_of_soles(mechanism, &tree, |side| side == row.support || plant.bears(side));
+                support.margin(foot.to_world(zmp))
+            });
             Some(Margin {
                 time: row.time,
                 half_step: row.half_step,

@@ -36,17 +36,22 @@ pub use zmp_over_time::zmp_over_time;
 
 use crate::run_log::RunLog;
 
-/// Draws all pictures of a run. Returns the names and texts of the files.
-pub fn of_run(log: &RunLog, mechanism: &Mechanism) -> [(&'static str, String); 7] {
-    [
-        ("footprints.svg", footprints(log, mechanism)),
-        ("balance_over_time.svg", balance_over_time(log, mechanism)),
-        ("margin_over_time.svg", margin_over_time(log, mechanism)),
-        ("compensation_over_time.svg", compensation_over_time(log, mechanism)),
-        ("zmp_over_time.svg", zmp_over_time(log, mechanism)),
-        ("zmp_in_sole.svg", zmp_in_sole(log, mechanism)),
-        ("stick_walk.svg", stick_walk(log, mechanism)),
-    ]
+/// Draws the pictures of a run for which it holds what they show: all of them, if both processes recorded. Returns the
+/// names and texts of the files.
+pub fn of_run(log: &RunLog, mechanism: &Mechanism) -> Vec<(&'static str, String)> {
+    let (plant, controller) = (!log.plant.is_empty(), !log.controller.is_empty());
+    type Draw = fn(&RunLog, &Mechanism) -> String;
+    let pictures: [(&str, bool, Draw); 7] = [
+        ("footprints.svg", plant && controller, footprints),
+        ("balance_over_time.svg", plant && controller, balance_over_time),
+        ("margin_over_time.svg", controller, margin_over_time),
+        ("compensation_over_time.svg", controller, compensation_over_time),
+        ("zmp_over_time.svg", controller, zmp_over_time),
+        ("zmp_in_sole.svg", plant && controller, zmp_in_sole),
+        ("stick_walk.svg", plant, stick_walk),
+    ];
+    let drawn = pictures.into_iter().filter(|(_, can_be_drawn, _)| *can_be_drawn);
+    drawn.map(|(name, _, draw)| (name, draw(log, mechanism))).collect()
 }
 
 #[cfg(test)]
@@ -56,9 +61,16 @@ mod tests {
     use crate::run_log::synthetic;
 
     #[test]
-    fn pictures_of_empty_and_of_short_runs_are_valid() {
+    fn pictures_of_short_runs_and_of_one_process_are_valid() {
         let mechanism = synthetic::mechanism();
-        for log in [RunLog::default(), synthetic::log(0, 0.0)] {
+        assert!(of_run(&RunLog::default(), &mechanism).is_empty());
+        let (short, run) = (synthetic::log(0, 0.0), synthetic::log(3, 0.1));
+        let of_controller = RunLog { plant: Vec::new(), ..run.clone() };
+        let of_plant = RunLog { controller: Vec::new(), ..run };
+        let drawn = |log| of_run(log, &mechanism).iter().map(|(name, _)| *name).collect::<Vec<_>>();
+        assert_eq!(drawn(&of_controller), ["margin_over_time.svg", "compensation_over_time.svg", "zmp_over_time.svg"]);
+        assert_eq!(drawn(&of_plant), ["stick_walk.svg"]);
+        for log in [short, of_controller, of_plant] {
             for (_, svg) in of_run(&log, &mechanism) {
                 assert!(svg.starts_with("<svg") && !svg.contains("NaN") && !svg.contains("inf"), "{svg}");
             }

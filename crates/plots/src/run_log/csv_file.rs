@@ -1,34 +1,73 @@
 //! Writes the log as CSV files.
 
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use super::CsvRow;
+use super::each_row::{Row, each_row};
+use super::{ControllerRow, CsvRow, PlantRow};
 
 /// Why a CSV file could not be written.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: {cause}", path.display())]
-pub struct CsvError {
-    /// Path of the file.
-    pub path: PathBuf,
-    /// Why the operating system or the writer refused.
-    pub cause: csv::Error,
+pub enum CsvError {
+    /// The operating system or the writer refused.
+    #[error("{}: {cause}", path.display())]
+    File {
+        /// Path of the file.
+        path: PathBuf,
+        /// Why it was refused.
+        cause: csv::Error,
+    },
+    /// The recording cannot be read.
+    #[error(transparent)]
+    Recording(#[from] record::RecordError),
 }
 
-/// Writes rows into their file in the folder `dir`, and returns its path.
+/// Writes every row of a run, however long it is, into the CSV files of plant and controller in the folder `dir`, and
+/// returns their paths.
 ///
 /// # Errors
-/// The file cannot be written.
-pub fn write_rows<R: CsvRow>(dir: &Path, rows: &[R]) -> Result<PathBuf, CsvError> {
-    let path = dir.join(R::FILE);
-    let write = || -> Result<(), csv::Error> {
-        let mut csv = csv::WriterBuilder::new().has_headers(false).from_path(&path)?;
-        csv.write_record(R::columns())?;
-        rows.iter().try_for_each(|row| csv.serialize(row))?;
-        Ok(csv.flush()?)
-    };
-    match write() {
-        Ok(()) => Ok(path),
-        Err(cause) => Err(CsvError { path, cause }),
+/// The run cannot be read, or a file cannot be written.
+pub fn write_csv(run: &Path, dir: &Path) -> Result<[PathBuf; 2], CsvError> {
+    let (mut plant, mut controller) = (CsvFile::create::<PlantRow>(dir)?, CsvFile::create::<ControllerRow>(dir)?);
+    each_row(run, |row| match row {
+        Row::Plant(row) => plant.write(&row),
+        Row::Controller(row) => controller.write(&row),
+    })?;
+    Ok([plant.finish()?, controller.finish()?])
+}
+
+/// A CSV file that is being written, until the first failure.
+struct CsvFile {
+    path: PathBuf,
+    writer: csv::Writer<File>,
+    result: Result<(), csv::Error>,
+}
+
+impl CsvFile {
+    fn create<R: CsvRow>(dir: &Path) -> Result<Self, CsvError> {
+        let path = dir.join(R::FILE);
+        let create = || -> Result<csv::Writer<File>, csv::Error> {
+            let mut writer = csv::WriterBuilder::new().has_headers(false).from_path(&path)?;
+            writer.write_record(R::columns())?;
+            Ok(writer)
+        };
+        match create() {
+            Ok(writer) => Ok(Self { path, writer, result: Ok(()) }),
+            Err(cause) => Err(CsvError::File { path, cause }),
+        }
+    }
+
+    fn write(&mut self, row: &impl CsvRow) {
+        if self.result.is_ok() {
+            self.result = self.writer.serialize(row);
+        }
+    }
+
+    fn finish(mut self) -> Result<PathBuf, CsvError> {
+        match self.result.and_then(|()| Ok(self.writer.flush()?)) {
+            Ok(()) => Ok(self.path),
+            Err(cause) => Err(CsvError::File { path: self.path, cause }),
+        }
     }
 }
 
@@ -36,14 +75,19 @@ pub fn write_rows<R: CsvRow>(dir: &Path, rows: &[R]) -> Result<PathBuf, CsvError
 mod tests {
     use std::fs;
 
-    use super::super::{ControllerRow, PlantRow, synthetic};
+    use super::super::synthetic;
     use super::*;
 
     #[test]
     fn csv_rows_have_as_many_values_as_columns() {
         let (log, dir) = (synthetic::log(1, 0.0), tempfile::tempdir().unwrap());
-        let plant = write_rows(dir.path(), &log.plant).unwrap();
-        let controller = write_rows(dir.path(), &log.controller).unwrap();
+        fn written<R: CsvRow>(dir: &Path, rows: &[R]) -> PathBuf {
+            let mut file = CsvFile::create::<R>(dir).unwrap();
+            rows.iter().for_each(|row| file.write(row));
+            file.finish().unwrap()
+        }
+        let plant = written(dir.path(), &log.plant);
+        let controller = written(dir.path(), &log.controller);
         for (file, columns, rows) in [
             (&plant, PlantRow::columns(), log.plant.len()),
             (&controller, ControllerRow::columns(), log.controller.len()),

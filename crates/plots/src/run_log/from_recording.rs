@@ -12,7 +12,7 @@ pub(super) fn of_controller(time: f64, tick: &TickMessage, timing: &PeriodTiming
     ControllerRow {
         time,
         tick: tick.tick,
-        mode: report.mode.text().to_owned(),
+        mode: report.mode.text(),
         support: report.half_step.support,
         half_step: report.half_step.index,
         progress: report.half_step.progress,

@@ -2,54 +2,193 @@
 
 use std::path::Path;
 
-use record::{RecordError, Recording, RunEvent, TickMessage, files_of};
+use record::RecordError;
 
-use super::from_recording;
+use super::each_row::{Row, each_row};
 use super::rows::{ControllerRow, PlantRow};
+use super::thinner::{Survey, Thinner};
 
-/// The log of a run.
+/// The log of a run. Of a run of more than some minutes only evenly spaced rows are kept, and those from which it is
+/// measured.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunLog {
     /// Rows of the plant in order of time.
     pub plant: Vec<PlantRow>,
     /// Rows of the controller in order of time.
     pub controller: Vec<ControllerRow>,
+    /// What the user must know about the recording, one text each: where it is truncated, what it lacks, and what was
+    /// left out.
+    pub notes: Vec<String>,
 }
 
 impl RunLog {
-    /// Reads a run: a recording, or the folder that holds it. A truncated recording is read as far as it goes, with a
-    /// message on stderr.
+    /// Reads a run: a recording, or the folder that holds it. A truncated recording is read as far as it goes.
+    ///
+    /// Rows whose numbers are not finite, or absurd, are left out, and so are rows that are earlier than those before.
     ///
     /// # Errors
     /// There is no recording, or it has another version.
     pub fn read(run: &Path) -> Result<Self, RecordError> {
-        let mut log = Self::default();
-        for file in files_of(run)? {
-            let mut recording = Recording::open(&file)?;
-            let mut tick = TickMessage::default();
-            while let Some(stamped) = recording.next_event()? {
-                match stamped.event {
-                    RunEvent::Tick(message) => tick = message,
-                    // The controller writes no nonsense; a tick that is lost leaves a gap that every picture bears.
-                    RunEvent::Report(message) => {
-                        let row = message.checked().map(|report| {
-                            from_recording::of_controller(stamped.time(), &tick, &message.timing(), &report)
-                        });
-                        log.controller.extend(row);
-                    }
-                    RunEvent::Truth(message) => log.plant.push(from_recording::of_plant(stamped.time(), &message)),
-                    _ => {}
-                }
-            }
-            if let Some(cut) = recording.cut() {
-                eprintln!("{cut}");
-            }
-        }
+        let mut survey = Survey::default();
+        let mut drawable = Drawable::default();
+        let notes = each_row(run, |row| match drawable.filter(row) {
+            Some(Row::Plant(row)) => survey.note_plant(&row),
+            Some(Row::Controller(row)) => survey.note_controller(&row),
+            None => {}
+        })?;
+        let mut log = Self { notes, ..Self::default() };
+        log.notes.extend(drawable.note());
+        let is_short = survey.is_short();
+        let (mut thinner, mut drawable) = (Thinner::new(survey), Drawable::default());
+        each_row(run, |row| match drawable.filter(row) {
+            Some(Row::Plant(row)) if is_short || thinner.keeps_plant(&row) => log.plant.push(row),
+            Some(Row::Controller(row)) if is_short || thinner.keeps_controller(&row) => log.controller.push(row),
+            _ => {}
+        })?;
+        log.notes.extend(log.missing_part());
         Ok(log)
+    }
+
+    /// What cannot be drawn because one of the processes recorded nothing.
+    fn missing_part(&self) -> Option<String> {
+        let (which, rest) = match (self.plant.is_empty(), self.controller.is_empty()) {
+            (true, false) => ("states of the plant (/truth)", "what the controller reports"),
+            (false, true) => ("reports of the controller (/reports)", "the postures of the robot"),
+            _ => return None,
+        };
+        Some(format!(
+            "it holds no {which}: only {rest} can be drawn. Give controller and plant the same --out, or put both files \
+             into one folder"
+        ))
     }
 
     /// The plant's row at a time (s) or the first one after it; `None` after the end.
     pub fn plant_at(&self, time: f64) -> Option<&PlantRow> {
         self.plant.get(self.plant.partition_point(|row| row.time < time))
+    }
+}
+
+/// Passes on the rows that can be drawn.
+#[derive(Default)]
+struct Drawable {
+    left_out: u64,
+    /// Time of the first row that was left out (s).
+    since: f64,
+    /// Times of the last rows of plant and controller (s).
+    last: [f64; 2],
+}
+
+impl Drawable {
+    fn filter(&mut self, row: Row) -> Option<Row> {
+        let (time, which) = match &row {
+            Row::Plant(row) => (row.time, 0),
+            Row::Controller(row) => (row.time, 1),
+        };
+        let row = match row {
+            Row::Plant(row) => row.plausible().map(Row::Plant),
+            Row::Controller(row) => row.plausible().map(Row::Controller),
+        };
+        let row = row.filter(|_| time >= self.last[which]);
+        if row.is_some() {
+            self.last[which] = time;
+        } else {
+            if self.left_out == 0 {
+                self.since = time;
+            }
+            self.left_out += 1;
+        }
+        row
+    }
+
+    fn note(&self) -> Option<String> {
+        let Self { left_out, since, .. } = self;
+        (*left_out > 0).then(|| {
+            format!(
+                "{left_out} recorded states from {since:.3} s on cannot be drawn: numbers are not finite, or absurd"
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+    use record::{Provenance, RecordingWriter, RunEvent, TruthMessage};
+    use wire::{ReportMessage, WireLayout};
+
+    use super::super::synthetic::{log, mechanism};
+    use super::super::write_csv;
+    use super::*;
+    use crate::picture;
+
+    /// A message of zeros and some numbers, each anything or absurd.
+    fn message<M: WireLayout>(numbers: &[(f64, u64)]) -> M {
+        const ABSURD: [f64; 8] = [f64::NAN, f64::INFINITY, 1e308, -1e300, 5e-324, 1.0, -3.0, 1e5];
+        let mut bytes = vec![0; M::layout().size];
+        for (place, bits) in numbers {
+            let at = (place * (bytes.len() / 8) as f64) as usize * 8;
+            let bits = ABSURD.get(*bits as usize % 16).map_or(*bits, |number| number.to_bits());
+            bytes[at..at + 8].copy_from_slice(&bits.to_le_bytes());
+        }
+        M::decode(&bytes).expect("as long as its layout says")
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: cases(), ..ProptestConfig::default() })]
+
+        #[test]
+        fn a_run_of_any_numbers_is_measured_and_drawn(
+            rows in vec((vec((0.0..1.0, any::<u64>()), 0..4), vec((0.0..1.0, any::<u64>()), 0..4), 0..9_u64), 1..12),
+            long in any::<bool>(),
+        ) {
+            let folder = tempfile::tempdir().unwrap();
+            let file = folder.path().join("run.mcap");
+            let mut writer = RecordingWriter::create(&file, &Provenance::default()).unwrap();
+            let mut time_ns = 0;
+            for (number, (truth, report, step)) in (0..).zip(&rows) {
+                let mut truth: TruthMessage = message(truth);
+                // Else hardly any is drawn.
+                truth.right_sole[3] = if number % 5 == 4 { truth.right_sole[3] } else { 1.0 };
+                time_ns += if long { step << 58 } else { step * 100_000_000 };
+                for event in [RunEvent::Truth(truth), RunEvent::Report(message::<ReportMessage>(report))] {
+                    writer.write(time_ns, number, &event).unwrap();
+                }
+            }
+            writer.finish().unwrap();
+            let (log, mechanism) = (RunLog::read(&file).unwrap(), mechanism());
+            log.measures(&mechanism);
+            for (name, svg) in picture::of_run(&log, &mechanism) {
+                assert!(!svg.contains("NaN") && !svg.contains("inf\""), "{name}");
+                assert!(svg.len() < 4 << 20, "{name} has {} bytes", svg.len());
+            }
+            write_csv(&file, folder.path()).unwrap();
+        }
+    }
+
+    /// Drawing takes a while; more where the environment asks for it.
+    fn cases() -> u32 {
+        std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(40)
+    }
+
+    #[test]
+    fn a_long_run_has_the_measures_of_all_its_rows() {
+        // Longer than all that is kept, with a dip of the margin and a fall that no even spacing would meet.
+        let mut whole = log(80_000, 0.001);
+        whole.controller[300_007].margin = Some(-0.0123);
+        let fell = whole.plant.len() - 5_003;
+        whole.plant[fell..].iter_mut().for_each(|row| row.fallen = true);
+        let mut survey = Survey::default();
+        whole.controller.iter().for_each(|row| survey.note_controller(row));
+        whole.plant.iter().for_each(|row| survey.note_plant(row));
+        assert!(!survey.is_short());
+        let mut thinner = Thinner::new(survey);
+        let thinned = RunLog {
+            controller: whole.controller.iter().filter(|row| thinner.keeps_controller(row)).cloned().collect(),
+            plant: whole.plant.iter().filter(|row| thinner.keeps_plant(row)).cloned().collect(),
+            notes: Vec::new(),
+        };
+        assert!(thinned.controller.len() < whole.controller.len() && thinned.plant.len() < whole.plant.len() * 2 / 3);
+        assert_eq!(thinned.measures(&mechanism()), whole.measures(&mechanism()));
     }
 }

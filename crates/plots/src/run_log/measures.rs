@@ -35,7 +35,7 @@ impl RunLog {
         let done = self.controller.first().zip(self.controller.last());
         let margins = self.controller.iter().filter_map(|row| row.margin).filter(|margin| margin.is_finite());
         Measures {
-            half_steps: done.map_or(0, |(first, last)| last.half_step - first.half_step),
+            half_steps: done.map_or(0, |(first, last)| last.half_step.saturating_sub(first.half_step)),
             distance_m: distance(&prints),
             heading_deg: heading_change(&prints).to_degrees(),
             min_margin_mm: margins.min_by(f64::total_cmp).map(|margin| margin * 1e3),

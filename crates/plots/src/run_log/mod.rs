@@ -6,17 +6,20 @@
 
 mod columns;
 mod csv_file;
+mod each_row;
 mod fall;
 mod footprint;
 mod from_recording;
 mod log;
 mod measures;
+mod plausible;
 mod rows;
 mod support;
 #[cfg(test)]
 pub(crate) mod synthetic;
+mod thinner;
 
-pub use csv_file::{CsvError, write_rows};
+pub use csv_file::{CsvError, write_csv};
 pub use fall::Fall;
 pub use footprint::FootPlacement;
 pub use log::RunLog;

@@ -55,7 +55,7 @@ pub struct ControllerRow {
     /// Number of the tick since the start.
     pub tick: u64,
     /// Name of the mode, as in `walking`.
-    pub mode: String,
+    pub mode: &'static str,
     /// The support foot.
     pub support: Side,
     /// Half-steps completed before the present one.

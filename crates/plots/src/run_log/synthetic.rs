@@ -39,7 +39,7 @@ pub(crate) fn log(half_steps: u64, turn: f64) -> RunLog {
         log.controller.push(ControllerRow {
             time,
             tick,
-            mode: "walking".into(),
+            mode: "walking",
             support,
             half_step,
             progress: (tick % TICKS) as f64 / TICKS as f64,
