@@ -2,6 +2,8 @@
 
 mod dynamics;
 #[cfg(feature = "command-line")]
+mod files;
+#[cfg(feature = "command-line")]
 mod paper;
 mod plant;
 #[cfg(feature = "command-line")]

@@ -3,6 +3,7 @@
 mod a_dropped_robot_settles_at_its_weight;
 mod a_push_changes_momentum_by_its_impulse;
 mod a_slope_tilts_nothing_but_gravity;
+mod an_unstable_simulation_is_noticed;
 mod friction_holds_below_the_cone_and_slips_above;
 mod sensor_faults_follow_the_script;
 mod smaller_steps_err_less;

@@ -2,16 +2,19 @@
 //! its own instance; nearly all walk in lockstep, so that a busy machine only makes them slower.
 
 mod a_disturbance_script_is_played;
+mod a_full_disk_is_told_at_once;
 mod a_killed_run_can_be_read;
 mod a_recording_holds_the_run;
 mod a_recording_is_never_overwritten;
 mod a_replay_gives_the_same_bits;
 mod a_second_controller_is_refused;
 mod a_silent_stream_stops_the_walk;
+mod a_simulation_that_becomes_unstable_is_told;
 mod a_stop_is_heard_through_any_flood;
 mod a_stream_changes_the_walk_while_it_runs;
 mod bad_configuration_is_refused_with_every_error;
 mod every_error_is_the_pinned_text;
+mod recordings_of_other_tools_are_read;
 mod the_committed_nominal_regenerates_bit_for_bit;
 mod the_next_start_cleans_up_after_a_killed_process;
 mod two_processes_walk_in_lockstep;

@@ -11,6 +11,7 @@ mod agreement;
 mod asked;
 mod cores;
 mod faults;
+mod files;
 mod grid;
 mod margins;
 #[cfg(feature = "mujoco")]
@@ -19,6 +20,7 @@ mod needs;
 mod playback;
 mod pushes;
 mod single;
+mod spoiling;
 mod start_stop;
 mod streams;
 mod table;
@@ -55,6 +57,8 @@ enum Survey {
     Faults(faults::Options),
     /// Compensation needed: the paper's leans and ours, and which walks fall without it
     Needs(needs::Options),
+    /// Spoilt files through the command line: no panic, nothing slow, nothing large
+    Files(files::Options),
     /// The predicted least margin of half-steps against the measured one
     Margins(margins::Options),
     /// What is granted, walked in MuJoCo
@@ -79,6 +83,7 @@ fn main() -> ExitCode {
         Survey::Variations(options) => variations::survey(options),
         Survey::Faults(options) => faults::survey(options),
         Survey::Needs(options) => needs::survey(options),
+        Survey::Files(options) => files::survey(options),
         Survey::Margins(options) => margins::survey(options),
         #[cfg(feature = "mujoco")]
         Survey::Mujoco(options) => mujoco::survey(options),

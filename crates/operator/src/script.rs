@@ -149,6 +149,23 @@ fn intent<'d, D: Deserializer<'d>>(deserializer: D) -> Result<Option<Intent>, D:
 mod tests {
     use super::*;
 
+    proptest::proptest! {
+        #[test]
+        fn any_line_is_a_request_or_an_error_with_its_place(
+            parts in proptest::collection::vec((0..24_usize, ".{0,8}"), 0..24),
+        ) {
+            const PIECES: [&str; 20] = [
+                "{", "}", "\"t\"", ":", ",", "\"turn_deg\"", "\"speed\"", "\"intent\"", "\"walk\"", "\"stop\"", "1.5",
+                "-1e999", "1e308", "null", "[", "]", "\"extension_deg\"", "nan", "\u{0}", "\n",
+            ];
+            let text: String = parts.iter().map(|(piece, other)| *PIECES.get(*piece).unwrap_or(&other.as_str())).collect();
+            match Reader::read_all("fuzz", &text) {
+                Ok(steps) => assert!(steps.iter().all(|step| step.time.is_none_or(|t| t.as_secs_f64() <= TIME_MAX))),
+                Err(errors) => assert!(errors.iter().all(|error| error.to_string().starts_with("fuzz:"))),
+            }
+        }
+    }
+
     fn problem(line: &str) -> String {
         Reader::new("f").read(line).expect("a line").expect_err("it is wrong").to_string()
     }

@@ -38,3 +38,44 @@ pub trait Latest: ZeroCopySend + Copy + Debug + Send + 'static {
     /// The writer's count of periods.
     fn tick(&self) -> u64;
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::WireLayout;
+
+    /// Any bits of a message's length, with many numbers that are none.
+    fn bytes_of<M: WireLayout>(words: &[u64]) -> Vec<u8> {
+        let numbers = [f64::NAN, f64::INFINITY, -0.0, 1.0, 1e308, 0.0, f64::MIN_POSITIVE, -1.0].map(f64::to_bits);
+        let word = |word: &u64| *numbers.get(*word as usize % 12).unwrap_or(word);
+        let mut bytes: Vec<u8> =
+            words.iter().cycle().map(word).flat_map(u64::to_le_bytes).take(M::layout().size).collect();
+        bytes.resize(M::layout().size, 0);
+        bytes
+    }
+
+    proptest! {
+        #[test]
+        fn any_bits_are_a_message_or_a_fault_with_a_name(words in vec(any::<u64>(), 1..120), cut in 0..2000_usize) {
+            macro_rules! check {
+                ($($message:ident),+) => {$(
+                    let bytes = bytes_of::<$message>(&words);
+                    let message = $message::decode(&bytes).expect("as long as its layout says");
+                    if let Err(fault) = message.checked() {
+                        assert!(!fault.to_string().is_empty());
+                    }
+                    let mut again = Vec::new();
+                    message.encode(&mut again);
+                    assert_eq!(again, bytes, "every bit is kept");
+                    assert!($message::decode(&bytes[..cut.min(bytes.len() - 1)]).is_none());
+                )+};
+            }
+            check!(SetpointMessage, ReportMessage, RequestMessage, ReplyMessage);
+            let measurement = MeasurementMessage::decode(&bytes_of::<MeasurementMessage>(&words));
+            measurement.expect("as long as its layout says").measurement();
+        }
+    }
+}
