@@ -66,7 +66,7 @@ pub(super) fn files() -> Vec<File> {
         committed("recorded_leg_shape.csv", |text| {
             GaitRecording::parse(text, Path::new("f")).map(|_| Loaded::Other).map_err(|error| error.to_string())
         }),
-        committed("commands_demo.jsonl", |text| match script::Reader::read_all("f", text) {
+        committed("commands_demo.jsonl", |text| match script::Reader::read_all("f", text.as_bytes()) {
             Ok(_) => Ok(Loaded::Other),
             Err(errors) => Err(errors[0].to_string()),
         }),

@@ -13,6 +13,7 @@ use halfstep_tests::mechanism;
 use halfstep_tests::walking::{controller_parameters, nominal, plant_parameters};
 use interface::{GaitChange, Request, Setpoint, Source};
 use node::admission_worker::ClockedWorker;
+use node::announcements::Announced;
 use node::controller_loop::run_controller;
 use node::cycle::{Clock, CycleTiming, Cycles};
 use node::interrupt::Interrupt;
@@ -65,7 +66,7 @@ fn walk(ticks: u64) -> [Happened; 2] {
             let worker = ClockedWorker::new(timing.clock, Scheduling::default());
             let mut driver = Driver { controller, worker };
             let (mut recorder, recorder_thread) =
-                recorder::of_controller(timing.clock, timing.rate, None, reports).unwrap();
+                recorder::of_controller(timing.clock, timing.rate, None, reports, Announced::Faults).unwrap();
             let mut cycles = Cycles::new(timing, measurements, "plant", Some(ticks), Interrupt::default());
             let mut queue =
                 RequestQueue::new(RequestBridge::new(requests, timing.clock, CAPACITY, Scheduling::default()).unwrap());
@@ -81,7 +82,8 @@ fn walk(ticks: u64) -> [Happened; 2] {
         let plant = threads.spawn(move || {
             let PlantPorts { setpoints, mut measurements } = of_plant;
             let mut plant = Plant::new(mechanism, &plant_parameters(), &start, timing.rate.period_s(), 1);
-            let (mut recorder, recorder_thread) = recorder::of_plant(timing.clock, timing.rate, None).unwrap();
+            let (mut recorder, recorder_thread) =
+                recorder::of_plant(timing.clock, timing.rate, None, Announced::Faults).unwrap();
             let mut cycles = Cycles::new(timing, setpoints, "controller", Some(ticks), Interrupt::default());
             let step = |plant: &mut Plant, setpoint: &Setpoint| Ok(plant.step(setpoint));
             let happened = watch(|| {

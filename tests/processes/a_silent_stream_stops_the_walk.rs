@@ -87,7 +87,11 @@ fn lower_priority_requests_are_refused_except_for_a_stop() {
     // A person goes before a script, and takes command with a limit.
     assert_eq!(send("turn 3").code, Some(0), "a single request goes before");
     assert_eq!(send("turn 3 --for 60s").code, Some(0), "it takes command over");
-    stream.type_on("{\"speed\":1.02}\n{\"intent\":\"stop\"}\n");
+    stream.type_on("{\"speed\":1.02}\n");
+    while stream.lines_so_far() < 2 {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    stream.type_on("{\"intent\":\"stop\"}\n");
     let ended = stream.finish();
     let replies: Vec<&str> = ended.stdout.lines().collect();
     assert!(replies[1].starts_with("2: refused: `console` is in control and outranks `script`"), "{replies:?}");

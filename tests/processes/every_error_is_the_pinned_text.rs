@@ -60,7 +60,13 @@ fn printed(command_line: &CommandLine, words: &str) -> String {
     assert!(!ended.stderr.contains("panicked"), "`halfstep {words}`: {}", ended.stderr);
     let folder = command_line.folder().display().to_string();
     let stderr = ended.stderr.replace(&folder, "FOLDER").replace("halfstep-under-test", "halfstep");
+    let stderr = without_running(&stderr);
     format!("$ halfstep {words}\n{}exit code {}\n\n", ended.stdout + &stderr, ended.code.unwrap_or(-1))
+}
+
+/// The same lines without the names of other instances that run on this machine.
+fn without_running(stderr: &str) -> String {
+    stderr.lines().map(|line| line.split("; running: ").next().unwrap_or_default().to_owned() + "\n").collect()
 }
 
 #[test]

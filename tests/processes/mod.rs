@@ -1,7 +1,9 @@
 //! The `halfstep` command as people use it: controller, plant, streams, recordings. Each test has its own folder and
 //! its own instance; nearly all walk in lockstep, so that a busy machine only makes them slower.
 
+mod a_bad_line_spoils_itself_only;
 mod a_disturbance_script_is_played;
+mod a_fault_that_stops_a_walk_is_named;
 mod a_full_disk_is_told_at_once;
 mod a_killed_run_can_be_read;
 mod a_recording_holds_the_run;
@@ -12,9 +14,13 @@ mod a_silent_stream_stops_the_walk;
 mod a_simulation_that_becomes_unstable_is_told;
 mod a_stop_is_heard_through_any_flood;
 mod a_stream_changes_the_walk_while_it_runs;
+mod a_stream_follows_its_newest_line;
 mod bad_configuration_is_refused_with_every_error;
 mod every_error_is_the_pinned_text;
+mod output_that_nobody_reads_ends_nothing;
 mod recordings_of_other_tools_are_read;
+mod requests_expire_and_carry_their_id;
+mod send_finds_its_controller_or_names_the_others;
 mod the_committed_nominal_regenerates_bit_for_bit;
 mod the_next_start_cleans_up_after_a_killed_process;
 mod two_processes_walk_in_lockstep;

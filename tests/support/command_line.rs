@@ -105,7 +105,13 @@ impl CommandLine {
         // Files, not pipes: nobody has to read while it runs.
         let outputs = ["stdout", "stderr"].map(|name| self.folder().join(format!("{name}-{number}")));
         let [stdout, stderr] = outputs.each_ref().map(|path| File::create(path).expect("a new file"));
-        let child = Command::new(&self.binary)
+        let child = self.spawn(words, stdout.into(), stderr.into());
+        Running { child, outputs }
+    }
+
+    /// `halfstep <words>` with its output to wherever; the standard input is a pipe.
+    pub fn spawn(&self, words: &str, stdout: Stdio, stderr: Stdio) -> Child {
+        Command::new(&self.binary)
             .args(words.split_whitespace())
             .current_dir(self.folder())
             .env_remove("RUST_LOG")
@@ -113,8 +119,7 @@ impl CommandLine {
             .stdout(stdout)
             .stderr(stderr)
             .spawn()
-            .expect("the binary under test");
-        Running { child, outputs }
+            .expect("the binary under test")
     }
 
     /// Waits until a controller of the instance takes requests.
@@ -151,6 +156,11 @@ impl Running {
             assert!(began.elapsed() < SAFETY, "it prints nothing: {}", ended.stderr);
             std::thread::sleep(GLANCE);
         }
+    }
+
+    /// How many whole lines it has printed.
+    pub fn lines_so_far(&self) -> usize {
+        self.ended(None).stdout.matches('\n').count()
     }
 
     /// Waits until it ends.

@@ -83,7 +83,7 @@ fn every_lasting_sensor_fault_is_named_and_ends_the_walk() {
 fn frozen_sensors_for_a_fifth_of_a_second_fell_nobody_at_any_phase() {
     for fault in ["kind = \"freeze\"\nvalues = \"feet\"", "kind = \"freeze\""] {
         for onset in 0..30 {
-            let start = 2.4 + 0.02 * f64::from(onset);
+            let start = 2.4 + 0.02 * onset as f64;
             let script = format!("[[sensor_fault]]\nat_s = {start}\nlasts_s = 0.2\n{fault}");
             let mut walking = Walking::begin(onset);
             walking.plant.disturbances = Disturbances::from_toml(&script, "script").unwrap();

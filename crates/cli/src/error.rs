@@ -5,24 +5,35 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
+use serde::Serialize;
+
 /// Why a command could not do what it was asked to.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub(crate) struct CliError {
     /// Whether the command line or an input file is wrong.
     bad_input: bool,
     /// What the user reads.
+    #[serde(rename = "error")]
     text: String,
+    /// What a child process has told already.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cause: Option<String>,
 }
 
 impl CliError {
     /// Something failed while the command ran.
     pub(crate) fn new(text: impl Display) -> Self {
-        Self { bad_input: false, text: text.to_string() }
+        Self { bad_input: false, text: text.to_string(), cause: None }
     }
 
     /// The command line or an input file is wrong.
     pub(crate) fn bad_input(text: impl Display) -> Self {
-        Self { bad_input: true, text: text.to_string() }
+        Self { bad_input: true, text: text.to_string(), cause: None }
+    }
+
+    /// The same error of a child process, which has told its own one.
+    pub(crate) fn with_cause(self, cause: Option<String>) -> Self {
+        Self { cause, ..self }
     }
 
     /// A file or folder cannot be read or written.
@@ -44,7 +55,7 @@ impl Display for CliError {
 
 impl From<wire::ConnectError> for CliError {
     fn from(error: wire::ConnectError) -> Self {
-        Self { bad_input: matches!(error, wire::ConnectError::BadName { .. }), text: error.to_string() }
+        if matches!(error, wire::ConnectError::BadName { .. }) { Self::bad_input(error) } else { Self::new(error) }
     }
 }
 
@@ -106,17 +117,15 @@ impl From<plots::run_log::CsvError> for CliError {
 impl From<record::RecordError> for CliError {
     fn from(error: record::RecordError) -> Self {
         use record::RecordError::{NotMcap, Nothing, OtherVersion, UnknownCompression, Unreadable, WrongSize};
-        Self {
-            bad_input: matches!(
-                error,
-                Nothing { .. }
-                    | NotMcap { .. }
-                    | OtherVersion { .. }
-                    | UnknownCompression { .. }
-                    | Unreadable { .. }
-                    | WrongSize { .. }
-            ),
-            text: error.to_string(),
-        }
+        let is_input = matches!(
+            error,
+            Nothing { .. }
+                | NotMcap { .. }
+                | OtherVersion { .. }
+                | UnknownCompression { .. }
+                | Unreadable { .. }
+                | WrongSize { .. }
+        );
+        if is_input { Self::bad_input(error) } else { Self::new(error) }
     }
 }

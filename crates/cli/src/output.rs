@@ -1,8 +1,10 @@
 //! Prints results and writes files of commands.
 
 use std::fs;
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 
+use node::tell::tell;
 use serde::Serialize;
 
 use crate::error::CliError;
@@ -18,19 +20,22 @@ pub(crate) fn print_json(value: &impl Serialize) -> Result<(), CliError> {
     print_line(text)
 }
 
-/// Prints a line and flushes it. A closed pipe is an error, which ends the command.
+/// Prints a line and flushes it. If the reader has closed the pipe it has read enough: that is no error.
 pub(crate) fn print_line(text: impl std::fmt::Display) -> Result<(), CliError> {
-    use std::io::Write;
     let mut stdout = std::io::stdout().lock();
-    writeln!(stdout, "{text}")
-        .and_then(|()| stdout.flush())
-        .map_err(|error| CliError::new(format!("cannot print: {error}")))
+    match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(CliError::new(format!("cannot print: {error}"))),
+        _ => Ok(()),
+    }
 }
 
-/// Tells the user something beside the result, on stderr. If that cannot be written, nobody reads it.
-pub(crate) fn tell(text: impl std::fmt::Display) {
-    use std::io::Write;
-    let _ = writeln!(std::io::stderr(), "{text}");
+/// Reports an error: as text on stderr and, if the results are JSON, also as JSON on stdout.
+pub(crate) fn print_error(json: bool, error: &CliError) {
+    if json {
+        // What cannot be printed here can be printed nowhere.
+        let _ = print_json(error);
+    }
+    tell(error);
 }
 
 /// Writes files, given by name and text, into a folder, which is created if necessary.

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use runtime::now_ns;
 use rustix::process::{Pid, Signal};
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use crate::error::CliError;
@@ -20,6 +21,12 @@ const POLL_INTERVAL: Duration = Duration::from_millis(5);
 pub(crate) struct Process {
     role: &'static str,
     child: Child,
+}
+
+/// What a process prints instead of its summary.
+#[derive(Deserialize)]
+struct Failure {
+    error: String,
 }
 
 impl Process {
@@ -75,7 +82,10 @@ impl Process {
                 .read_to_string(&mut summary)
                 .map_err(|error| CliError::new(format!("the {role} is unclear: {error}")))?;
         }
-        serde_json::from_str(&summary).map_err(|_| CliError::new(format!("the {role} failed ({status})")))
+        serde_json::from_str(&summary).map_err(|_| {
+            let failure = serde_json::from_str(&summary).ok().map(|Failure { error }| error);
+            CliError::new(format!("the {role} failed ({status})")).with_cause(failure)
+        })
     }
 
     fn wait(&mut self, timeout: Duration) -> Result<Option<ExitStatus>, CliError> {

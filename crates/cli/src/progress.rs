@@ -2,6 +2,7 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 use interface::Report;
+use node::tell::tell;
 use runtime::Rate;
 
 /// A line on the terminal that shows the state of the walk; nothing if stderr is no terminal.
@@ -39,7 +40,7 @@ impl Progress {
 
     /// Prints a message above the line.
     pub(crate) fn print(&self, text: &str) {
-        self.bar.suspend(|| eprintln!("{text}"));
+        self.bar.suspend(|| tell(text));
     }
 }
 

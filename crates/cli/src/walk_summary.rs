@@ -1,8 +1,10 @@
 //! The summary of a walk, with both processes together.
 
 use std::fmt;
+use std::path::PathBuf;
 
 use node::request_queue::Tally;
+use node::summary::{FaultSummary, counted};
 use node::timing::TimingStats;
 use plots::run_log::{Fall, Measures};
 use serde::Serialize;
@@ -13,6 +15,11 @@ pub(crate) struct WalkSummary {
     /// Distance, heading, margin and falls.
     #[serde(flatten)]
     pub measures: Measures,
+    /// What the controller was doing at the end.
+    pub mode: String,
+    /// The first fault that was latched while the plant ran; absent in JSON if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fault: Option<FaultSummary>,
     /// How many requests got which verdict.
     pub requests: Tally,
     /// Simulated time (s).
@@ -23,6 +30,8 @@ pub(crate) struct WalkSummary {
     pub plant: &'static str,
     /// Name of the instance.
     pub instance: String,
+    /// Folder of recording, summary and pictures.
+    pub folder: PathBuf,
     /// The clock: `realtime` or `lockstep`.
     pub clock: &'static str,
     /// Deadlines missed by controller and plant.
@@ -43,17 +52,17 @@ impl fmt::Display for WalkSummary {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
         let Measures { half_steps, distance_m, heading_deg, min_margin_mm, falls, fall } = self.measures;
         let margin = min_margin_mm.map_or("unknown".to_owned(), |margin| format!("{:.0} mm", margin.round() + 0.0));
-        let falls = match falls {
-            0 => "no fall".to_owned(),
-            1 => "1 fall".to_owned(),
-            falls => format!("{falls} falls"),
-        };
-        writeln!(
+        let falls = if falls == 0 { "no fall".to_owned() } else { counted(falls as u64, "fall") };
+        let half_steps = counted(half_steps, "half-step");
+        write!(
             out,
-            "{half_steps} half-steps in {:.1} s: {distance_m:.2} m, turned {heading_deg:+.1}°, least margin {margin}, \
-             {falls}",
+            "{half_steps} in {:.1} s: {distance_m:.2} m, turned {heading_deg:+.1}°, least margin {margin}, {falls}",
             self.duration_s
         )?;
+        writeln!(out, "{}", if self.fault.is_some() { ", stopped by a fault" } else { "" })?;
+        if let Some(FaultSummary { fault, time_s }) = &self.fault {
+            writeln!(out, "fault at {time_s:.2} s: {fault}; at the end {}", self.mode)?;
+        }
         if let Some(Fall { time_s, unavoidable_s, half_step }) = fall {
             write!(out, "it fell at {time_s:.2} s in half-step {half_step}")?;
             match unavoidable_s {
@@ -68,10 +77,8 @@ impl fmt::Display for WalkSummary {
         }
         writeln!(out, "{}", self.requests)?;
         let Self { real_time_factor, deadline_misses, log_gaps, timing, .. } = self;
-        write!(
-            out,
-            "{real_time_factor:.1} × real time, {deadline_misses} deadlines missed, {log_gaps} reports dropped"
-        )?;
+        let (misses, gaps) = (counted(*deadline_misses, "deadline"), counted(*log_gaps, "report"));
+        write!(out, "{real_time_factor:.1} × real time, {misses} missed, {gaps} dropped")?;
         timing.map_or(Ok(()), |timing| write!(out, "\nthe controller's {timing}"))?;
         self.problems.iter().try_for_each(|problem| write!(out, "\n{problem}"))
     }

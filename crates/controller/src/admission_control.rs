@@ -135,6 +135,7 @@ impl Decision {
     pub(crate) fn reply(&self, intent: Intent) -> Reply {
         let Self { verdict, granted, effect_half_step, objection, predicted_margin } = *self;
         Reply {
+            id: 0,
             verdict,
             reason: objection.map_or(Reason::None, |objection| objection.reason),
             effect_half_step,
@@ -143,6 +144,8 @@ impl Decision {
             active_limit: objection.and_then(|objection| objection.active_limit),
             authority: None,
             predicted_margin,
+            mode: None,
+            latched: None,
         }
     }
 

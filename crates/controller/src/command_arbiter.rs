@@ -19,7 +19,7 @@ pub struct ArbiterParameters {
     /// stays in effect until replaced.
     pub timeout: Option<f64>,
     /// All sources, highest priority first.
-    pub priority: [Source; Source::ALL.len()],
+    pub priority: [Source; Source::OPERATORS.len()],
 }
 
 /// Grants control authority to one source at a time. It has no clock: [`advance`](Self::advance) passes the time.
@@ -290,6 +290,17 @@ mod tests {
         arbiter.admit(&streamed(Source::Script)).unwrap();
         arbiter.admit(&Request::new(Source::Console)).unwrap();
         assert_eq!(pass(&mut arbiter, 1000), Some((502, Source::Script)), "its timeout still stops the robot");
+    }
+
+    #[test]
+    fn the_control_loops_own_hold_ends_no_stream() {
+        for source in Source::OPERATORS {
+            let mut arbiter = arbiter();
+            arbiter.admit(&streamed(source)).unwrap();
+            let outranked = arbiter.admit(&Request::new(Source::ControlLoop)).unwrap_err();
+            assert_eq!(outranked.source, source, "only its stop is taken");
+            assert_eq!(pass(&mut arbiter, 1000), Some((502, source)), "the stream's timeout still stops the robot");
+        }
     }
 
     #[test]

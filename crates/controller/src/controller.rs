@@ -7,7 +7,9 @@ use std::sync::Arc;
 
 use dynamics::{Kinematics, ReferenceDynamics, Tree};
 use gait::{NominalTable, Start, Walk, WalkError};
-use interface::{AddedAngles, Fault, Faults, Intent, Measurement, Mode, Reason, Rejection, Report, Setpoint};
+use interface::{
+    AddedAngles, Fault, Faults, Intent, LatchedFault, Measurement, Mode, Reason, Rejection, Reply, Report, Setpoint,
+};
 use model::{ComState, JointVector, Mechanism, Motion};
 use nalgebra::Vector2;
 use pattern::{FeasibilityCheck, GaitPhase, PatternGenerator, Stance};
@@ -68,6 +70,10 @@ pub struct Controller {
     unexpected_posture: Option<Rejection>,
     /// The last estimate of the centre of mass over this support foot, and its age (s).
     last_com: Option<(ComState, f64)>,
+    /// Time since the first tick began (s).
+    time: f64,
+    /// The latched fault as of the last tick.
+    latched: Option<LatchedFault>,
 }
 
 impl Controller {
@@ -132,6 +138,8 @@ impl Controller {
             measured_angles: None,
             unexpected_posture: None,
             last_com: None,
+            time: 0.0,
+            latched: None,
             rest,
             mechanism: mechanism.clone(),
             tree,
@@ -174,17 +182,39 @@ impl Controller {
         }
 
         self.last_setpoint = Some(setpoint);
+        self.time += dt;
+        self.note_latched();
 
         // What was measured before a support change is in the frame of the other foot.
         let is_same_foot = self.pattern.gait().half_step().support == support;
         Tick {
-            rejection: self.unexpected_posture.or(self.validator.rejection()),
+            rejection: self.rejection(),
             setpoint,
             report: self.report(&commanded, com_measured, is_same_foot, faults),
             command: self.pattern.gait().command(),
-            reply: self.admission.take_reply(),
-            superseded: self.admission.take_superseded(),
+            reply: self.admission.take_reply().map(|reply| self.complete_reply(reply)),
+            superseded: self.admission.take_superseded().map(|reply| self.complete_reply(reply)),
+            latched: self.latched,
         }
+    }
+
+    /// Notes since when the fault is latched that is.
+    fn note_latched(&mut self) {
+        let fault = self.state.latched();
+        if fault != self.latched.map(|latched| latched.fault) {
+            let cause = self.rejection().filter(|_| fault != Some(Fault::Fallen));
+            self.latched = fault.map(|fault| LatchedFault { fault, time: self.time, cause });
+        }
+    }
+
+    /// Why the newest measurement was not used, if it was not, or why the robot is held where it was found.
+    fn rejection(&self) -> Option<Rejection> {
+        self.unexpected_posture.or(self.validator.rejection())
+    }
+
+    /// A reply with the state of the controller as it leaves.
+    fn complete_reply(&self, reply: Reply) -> Reply {
+        Reply { mode: Some(self.mode()), latched: self.latched, ..reply }
     }
 
     /// What the controller is doing.

@@ -1,6 +1,6 @@
 //! What a tick returns, and how a report leaves the support coordinates of the controller.
 
-use interface::{AddedAngles, Command, Rejection, Reply, Report, Setpoint};
+use interface::{AddedAngles, Command, LatchedFault, Rejection, Reply, Report, Setpoint};
 use model::{ComState, Joint, JointVector, Mechanism, Side};
 use nalgebra::{Vector2, Vector3};
 
@@ -19,6 +19,8 @@ pub struct Tick {
     pub reply: Option<Reply>,
     /// The refusal of the request that was under evaluation when the robot was stopped.
     pub superseded: Option<Reply>,
+    /// The fault that is latched, if any.
+    pub latched: Option<LatchedFault>,
 }
 
 /// Within the controller the support foot is always the right one. Mirrors a report back if it is the left one: points

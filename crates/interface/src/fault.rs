@@ -1,5 +1,8 @@
 //! What can be wrong in a control period.
 
+use std::fmt;
+
+use crate::Rejection;
 use crate::code::codes;
 
 codes! {
@@ -40,6 +43,33 @@ codes! {
     }
 }
 
+/// A fault that keeps the robot from walking until a reset. Its text names the fault and when it was latched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LatchedFault {
+    /// What is wrong.
+    pub fault: Fault,
+    /// When it was latched: time of the controller since its first tick (s).
+    pub time: f64,
+    /// Why measurements were not used then, if that is what led to it: the sensor to look at.
+    pub cause: Option<Rejection>,
+}
+
+impl LatchedFault {
+    /// The fault in words, with the sensor that led to it.
+    pub fn text(&self) -> String {
+        match self.cause {
+            Some(cause) => format!("{} ({cause})", self.fault),
+            None => self.fault.to_string(),
+        }
+    }
+}
+
+impl fmt::Display for LatchedFault {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        write!(formatter, "{}, since {:.2} s", self.text(), self.time)
+    }
+}
+
 /// A set of faults, one bit each. Bits unknown to this version are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Faults(pub u32);
@@ -72,6 +102,19 @@ impl FromIterator<Fault> for Faults {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Sensor;
+
+    #[test]
+    fn a_latched_fault_is_told_with_its_time() {
+        let latched = LatchedFault { fault: Fault::Fallen, time: 3.2999, cause: None };
+        assert_eq!(latched.to_string(), "the robot has fallen, since 3.30 s");
+        let cause = Some(Rejection { fault: Fault::MeasurementFrozen, sensor: Sensor::Orientation });
+        assert_eq!(
+            LatchedFault { fault: Fault::MeasurementStale, cause, ..latched }.text(),
+            "no valid measurement has arrived for too long (orientation of the trunk: a sensor's value has stopped \
+             changing)"
+        );
+    }
 
     #[test]
     fn each_fault_has_a_bit_of_its_own() {

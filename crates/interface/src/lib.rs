@@ -32,7 +32,7 @@ mod source;
 mod verdict;
 
 pub use command::{Command, GaitChange};
-pub use fault::{Fault, Faults};
+pub use fault::{Fault, Faults, LatchedFault};
 pub use half_step::HalfStep;
 pub use intent::Intent;
 pub use lifetime::{COMMAND_TIMEOUT_MAX, COMMAND_TIMEOUT_MIN, Lifetime};

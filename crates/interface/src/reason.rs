@@ -49,6 +49,8 @@ codes! {
         Faulted = 20 "a fault is latched: send reset",
         /// The cause of the latched fault is still present.
         FaultPersists = 21 "the fault persists: the robot must be upright and sending measurements",
+        /// It expired before it could take effect: see [`Request::expires_ns`](crate::Request::expires_ns).
+        Expired = 22 "it expired before it could take effect",
         /// The robot cannot move to a stand from its posture: its feet would slip.
         NotInStand = 30 "the robot is not in a stand: put its feet side by side first",
     }

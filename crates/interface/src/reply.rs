@@ -2,11 +2,13 @@
 
 use model::Joint;
 
-use crate::{Command, Intent, Reason, Source, Verdict};
+use crate::{Command, Intent, LatchedFault, Mode, Reason, Source, Verdict};
 
 /// The reply to a request.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reply {
+    /// The request's [`id`](crate::Request::id).
+    pub id: u64,
     /// Accepted, limited or refused.
     pub verdict: Verdict,
     /// Why it was limited or refused; [`Reason::None`] if it was accepted.
@@ -24,6 +26,10 @@ pub struct Reply {
     /// Least predicted distance of the ZMP to the edge of the support polygon (m), negative outside; `None` if nothing
     /// was predicted.
     pub predicted_margin: Option<f64>,
+    /// What the controller is doing; `None` before its first tick.
+    pub mode: Option<Mode>,
+    /// The fault that is latched, if any, and since when.
+    pub latched: Option<LatchedFault>,
 }
 
 /// A limit, and by what it would have been exceeded. Both numbers have the unit of the [`Reason`]: rad for turn,
@@ -61,6 +67,7 @@ impl Reply {
     /// A refusal that leaves `granted` and `intent` in force.
     pub const fn refused(reason: Reason, effect_half_step: u64, granted: Command, intent: Option<Intent>) -> Self {
         Self {
+            id: 0,
             verdict: Verdict::Refused,
             reason,
             effect_half_step,
@@ -69,6 +76,8 @@ impl Reply {
             active_limit: None,
             authority: None,
             predicted_margin: None,
+            mode: None,
+            latched: None,
         }
     }
 }

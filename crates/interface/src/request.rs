@@ -19,12 +19,26 @@ pub struct Request {
     pub lifetime: Lifetime,
     /// Command timeout of a streamed request (s); `None` is the controller's own. Other lifetimes ignore it.
     pub timeout: Option<f64>,
+    /// A number of the sender's choice, which the [`Reply`](crate::Reply) repeats; 0 if it chose none.
+    pub id: u64,
+    /// When it expires, by `CLOCK_MONOTONIC` (ns): if it is not submitted to the controller by then it is refused.
+    /// `None` is never. A stop does not expire.
+    pub expires_ns: Option<u64>,
 }
 
 impl Request {
     /// An empty, latched request for at once, to be filled in.
     pub const fn new(source: Source) -> Self {
-        Self { not_before: 0, source, gait: GaitChange::NONE, intent: None, lifetime: Lifetime::Latched, timeout: None }
+        Self {
+            not_before: 0,
+            source,
+            gait: GaitChange::NONE,
+            intent: None,
+            lifetime: Lifetime::Latched,
+            timeout: None,
+            id: 0,
+            expires_ns: None,
+        }
     }
 
     /// Whether it changes nothing: a heartbeat, or the end of a stream.
@@ -37,8 +51,52 @@ impl Request {
         self.intent.is_some_and(Intent::is_stop)
     }
 
+    /// Whether a later request of the same source leaves nothing of it in effect. A request for something else than the
+    /// later one's intent is not overridden: the robot is to do one after the other.
+    pub fn is_overridden_by(&self, later: &Request) -> bool {
+        self.source == later.source
+            && self.lifetime == later.lifetime
+            && self.gait.turn.is_none_or(|_| later.gait.turn.is_some())
+            && self.gait.speed.is_none_or(|_| later.gait.speed.is_some())
+            && self.gait.extension.is_none_or(|_| later.gait.extension.is_some())
+            && self.intent.is_none_or(|intent| later.intent == Some(intent))
+    }
+
+    /// Whether it has expired at a time of `CLOCK_MONOTONIC` (ns). A stop never does.
+    pub fn has_expired(&self, now_ns: u64) -> bool {
+        !self.is_stop() && self.expires_ns.is_some_and(|expires_ns| expires_ns < now_ns)
+    }
+
     /// Whether it need not wait for the request that is under evaluation: a stop or a heartbeat.
     pub fn is_urgent(&self) -> bool {
         self.is_stop() || self.is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn asks(turn: Option<f64>, speed: Option<f64>, intent: Option<Intent>) -> Request {
+        Request { gait: GaitChange { turn, speed, ..GaitChange::NONE }, intent, ..Request::new(Source::Script) }
+    }
+
+    #[test]
+    fn a_request_is_overridden_by_a_later_one_that_sets_all_it_sets() {
+        let (turn, walk) = (asks(Some(0.1), None, None), asks(None, None, Some(Intent::Walk)));
+        assert!(turn.is_overridden_by(&asks(Some(0.2), Some(1.1), None)));
+        assert!(!asks(Some(0.2), Some(1.1), None).is_overridden_by(&turn), "the speed would be lost");
+        assert!(!turn.is_overridden_by(&Request { source: Source::Teleop, ..turn }));
+        assert!(!turn.is_overridden_by(&Request { lifetime: Lifetime::Streamed, ..turn }));
+        assert!(walk.is_overridden_by(&walk) && !walk.is_overridden_by(&turn));
+        assert!(!asks(None, None, Some(Intent::Reset)).is_overridden_by(&walk), "first the reset, then the walk");
+    }
+
+    #[test]
+    fn a_stop_does_not_expire() {
+        let at = |intent| Request { expires_ns: Some(7), ..asks(None, None, Some(intent)) };
+        assert!(at(Intent::Walk).has_expired(8) && !at(Intent::Walk).has_expired(7));
+        assert!(!at(Intent::Stop).has_expired(8) && !at(Intent::Hold).has_expired(8));
+        assert!(!asks(None, None, Some(Intent::Walk)).has_expired(u64::MAX), "it has no end");
     }
 }

@@ -1,7 +1,7 @@
 //! The controller's loop: wait, read, tick, write.
 
 use controller::{AdmissionWorker, Driver};
-use interface::{Fault, Intent, Mode, PeriodTiming, Request, Source};
+use interface::{Fault, Intent, LatchedFault, Mode, PeriodTiming, Request, Source};
 use runtime::now_ns;
 use wire::{LatestWriter, MeasurementMessage, RequestMessage, SetpointMessage};
 
@@ -23,12 +23,15 @@ pub struct ControllerRun {
     pub half_steps: u64,
     /// The mode after the last tick; `None` if the loop never began.
     pub mode: Option<Mode>,
+    /// The first fault that was latched, and when.
+    pub fault: Option<LatchedFault>,
     /// How late periods began and how long they took; in lockstep they are never late.
     pub timing: TimingStats,
 }
 
-/// The request that the loop makes by itself after too many missed deadlines in a row.
-const HOLD: Request = Request { intent: Some(Intent::Hold), ..Request::new(Source::Program) };
+/// The request that the loop makes by itself after too many missed deadlines in a row. Its source is its own, so that it
+/// ends no operator's stream.
+const HOLD: Request = Request { intent: Some(Intent::Hold), ..Request::new(Source::ControlLoop) };
 
 /// Runs until the cycles end. After `hold_after_misses` deadlines missed in a row the robot stops in stride; 0 is
 /// never.
@@ -58,7 +61,7 @@ pub fn run_controller<W: AdmissionWorker>(
                 recorder.push(ControllerEvent::Request(RequestId::LOOP.number(), RequestMessage::from(&HOLD)));
                 Some(DueRequest { id: RequestId::LOOP, request: HOLD })
             } else {
-                requests.due(cycle.tick, urgent_only, recorder)
+                requests.due(cycle.tick, time_ns, urgent_only, recorder)
             };
             submitted.map(|due| due.request)
         });
@@ -83,7 +86,7 @@ pub fn run_controller<W: AdmissionWorker>(
         }));
         requests.answer(submitted, &tick, recorder);
         let (half_steps, mode) = (tick.report.half_step.index, Some(tick.report.mode));
-        run = ControllerRun { ticks: cycle.tick + 1, half_steps, mode, ..run };
+        run = ControllerRun { ticks: cycle.tick + 1, half_steps, mode, fault: run.fault.or(tick.latched), ..run };
     }
     Ok(ControllerRun { timing: histogram.stats(), ..run })
 }

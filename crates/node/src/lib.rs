@@ -4,9 +4,11 @@
 //! * Beside the controller's loop, threads do what allocates or takes long: [`request_bridge`] for operators,
 //!   [`admission_worker`] for requests that must be simulated ahead, [`recorder`] for recordings and observers.
 //! * [`replay`] runs a controller on recorded inputs, and compares the setpoints.
+//! * [`announcements`] of the controller's modes and faults go to stderr through [`tell`].
 //! * [`configuration`] and [`realtime`] read what a process needs; [`engine`] runs another program's physics.
 
 pub mod admission_worker;
+pub mod announcements;
 pub mod configuration;
 pub mod controller_loop;
 pub mod cycle;
@@ -22,6 +24,7 @@ pub mod replay;
 pub mod request_bridge;
 pub mod request_queue;
 pub mod summary;
+pub mod tell;
 pub mod timing;
 
 pub use error::NodeError;

@@ -1,11 +1,13 @@
 //! Rate and scheduling of the loops; `config/realtime.toml`.
 
+use std::path::Path;
 use std::time::Duration;
 
 use config::{Config, Table};
 use runtime::{Granted, Rate, Scheduling};
 
 use crate::cycle::{Clock, CycleTiming};
+use crate::tell::tell;
 
 /// Rate and scheduling of the loops.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,13 +67,19 @@ fn of_loop(table: &Table, core: &str) -> Scheduling {
     }
 }
 
-/// Asks the system for the scheduling of the calling thread, and prints once what was refused. In lockstep it asks for
+/// Asks the system for the scheduling of the calling thread, and tells once what was refused. In lockstep it asks for
 /// nothing: the loops wait actively for each other, and would starve all other threads.
-pub fn enter(scheduling: &Scheduling, clock: Clock, role: &str) -> Option<Granted> {
+///
+/// * `file` – where the scheduling was read
+pub fn enter(scheduling: &Scheduling, clock: Clock, role: &str, file: &Path) -> Option<Granted> {
     let granted = (clock == Clock::Realtime).then(|| scheduling.request())?;
     if !granted.refused.is_empty() {
         let refused: Vec<String> = granted.refused.iter().map(|refusal| format!("  {refusal}")).collect();
-        eprintln!("the {role} runs on without real time (config/realtime.toml):\n{}", refused.join("\n"));
+        tell(format_args!(
+            "the {role} runs on without everything that {} asks for:\n{}",
+            file.display(),
+            refused.join("\n")
+        ));
     }
     Some(granted)
 }

@@ -9,9 +9,11 @@ use record::{Metadata, Provenance, RecordError, RecordingWriter, RunEvent};
 use runtime::{Journal, JournalEnd, Rate};
 use wire::ReportPublisher;
 
+use crate::announcements::{Announced, Announcements};
 use crate::cycle::Clock;
 use crate::entry::{ControllerEvent, PlantEntry};
 use crate::error::NodeError;
+use crate::tell::tell;
 
 /// How far the thread may fall behind before entries are lost.
 const LAG_MAX: Duration = Duration::from_millis(4096);
@@ -50,8 +52,8 @@ struct RecordWriter {
     tick: u64,
 }
 
-/// Opens the controller's recorder. It publishes the report of each tick to observers and, if `to` names a folder,
-/// writes all events into the controller's recording there.
+/// Opens the controller's recorder. It publishes the report of each tick to observers, tells what changes and, if `to`
+/// names a folder, writes all events into the controller's recording there.
 ///
 /// # Errors
 /// The recording cannot be created, or the operating system refused a thread.
@@ -60,8 +62,10 @@ pub fn of_controller(
     rate: Rate,
     to: Option<(&Path, Provenance)>,
     mut reports: ReportPublisher,
+    announced: Announced,
 ) -> Result<(Recorder<ControllerEvent>, RecorderThread), NodeError> {
     let mut is_first_failure = true;
+    let mut announcements = Announcements::new(announced);
     let take = move |writer: &mut RecordWriter, event: ControllerEvent| match event {
         ControllerEvent::Request(number, message) => writer.write(number, &[RunEvent::Request(message)]),
         ControllerEvent::Reply(number, message) => writer.write(number, &[RunEvent::Reply(message)]),
@@ -76,13 +80,15 @@ pub fn of_controller(
                 tracing::warn!("observers do not hear everything: {fault}");
             }
             writer.tick = entry.timing.tick;
+            announcements.after(&entry.tick, rate.time(entry.timing.tick)).into_iter().for_each(tell);
             writer.write(entry.timing.tick as u32, &entry.events());
         }
     };
     open(clock, rate, to.map(|(folder, origin)| (folder, record::CONTROLLER_FILE, origin)), "controller", take)
 }
 
-/// Opens the plant's recorder. If `to` names a folder, it writes each entry into the plant's recording there.
+/// Opens the plant's recorder. It tells when the controller begins and when the robot falls and, if `to` names a folder,
+/// writes each entry into the plant's recording there.
 ///
 /// # Errors
 /// The recording cannot be created, or the operating system refused a thread.
@@ -90,8 +96,18 @@ pub fn of_plant(
     clock: Clock,
     rate: Rate,
     to: Option<(&Path, Provenance)>,
+    announced: Announced,
 ) -> Result<(Recorder<PlantEntry>, RecorderThread), NodeError> {
-    let take = |writer: &mut RecordWriter, entry: PlantEntry| {
+    let (mut has_begun, mut has_fallen) = (false, false);
+    let take = move |writer: &mut RecordWriter, entry: PlantEntry| {
+        if announced == Announced::All {
+            if entry.tick > 0 && !std::mem::replace(&mut has_begun, true) {
+                tell("plant: follows the controller");
+            }
+            if entry.truth.has_fallen() && !std::mem::replace(&mut has_fallen, true) {
+                tell(format_args!("plant: the robot has fallen at {:.2} s", rate.time(entry.tick)));
+            }
+        }
         writer.tick = entry.tick;
         writer.write(entry.tick as u32, &[entry.event()]);
     };

@@ -209,8 +209,12 @@ impl RequestIo {
         self.until_check -= 1;
         if self.until_check == 0 {
             self.until_check = CHECK_INTERVAL;
-            let Self { unanswered, abandoned, .. } = self;
-            abandoned.extend(unanswered.extract_if(|_, answer| !answer.is_wanted()).map(|(id, _)| id));
+            let Self { unanswered, abandoned, others, .. } = self;
+            let gone: Vec<RequestId> =
+                unanswered.extract_if(|_, answer| !answer.is_wanted()).map(|(id, _)| id).collect();
+            // Those that were passed on already wait in the loop's queue.
+            others.retain(|waiting| !gone.contains(&waiting.id));
+            abandoned.extend(gone);
         }
     }
 

@@ -2,10 +2,11 @@
 //!
 //! A stop waits for nothing: it overtakes all others, there is always room for it, and what was requested before it and
 //! still waits is refused. A heartbeat overtakes requests that need an evaluation. A newer request of a source takes
-//! the place of an older one that it overrides. Requests of operators that have gone are dropped.
+//! the place of an older one that it overrides. Requests that have expired are refused, and those of operators that
+//! have gone or no longer wait for the reply are dropped; a stop is carried out all the same.
 
 use controller::Tick;
-use interface::{Command, Intent, Lifetime, Reason, Reply, Request, Source, Verdict};
+use interface::{Command, Intent, LatchedFault, Lifetime, Mode, Reason, Reply, Request, Source, Verdict};
 use serde::{Deserialize, Serialize};
 use wire::{MessageFault, ReplyMessage, RequestMessage};
 
@@ -24,7 +25,7 @@ pub struct RequestQueue {
     /// Stops for at once, in the order of their arrival.
     stops: heapless::Vec<DueRequest, STOPS>,
     /// The newest heartbeat of each source.
-    heartbeats: [Option<DueRequest>; Source::ALL.len()],
+    heartbeats: [Option<DueRequest>; Source::OPERATORS.len()],
     /// All others, earliest tick first; those for one tick in the order of their arrival.
     scheduled: heapless::Vec<DueRequest, CAPACITY>,
     /// The request that the controller evaluates.
@@ -46,6 +47,8 @@ struct InForce {
     half_step: u64,
     command: Command,
     intent: Option<Intent>,
+    mode: Option<Mode>,
+    latched: Option<LatchedFault>,
 }
 
 /// A request whose tick has come. Command arbitration counts its source as active from that tick on, not from when it
@@ -72,11 +75,11 @@ pub struct Tally {
 impl RequestQueue {
     /// An empty queue for the requests of a bridge.
     pub fn new(bridge: RequestBridge) -> Self {
-        let in_force = InForce { half_step: 0, command: Command::NOMINAL, intent: None };
+        let in_force = InForce { half_step: 0, command: Command::NOMINAL, intent: None, mode: None, latched: None };
         Self {
             bridge,
             stops: heapless::Vec::new(),
-            heartbeats: [None; Source::ALL.len()],
+            heartbeats: [None; Source::OPERATORS.len()],
             scheduled: heapless::Vec::new(),
             under_evaluation: None,
             newest_stop: None,
@@ -97,13 +100,15 @@ impl RequestQueue {
         }
         while let Some(id) = self.bridge.next_abandoned() {
             self.scheduled.retain(|waiting| waiting.id != id);
+            let is_abandoned = |heartbeat: &Option<DueRequest>| heartbeat.is_some_and(|heartbeat| heartbeat.id == id);
+            self.heartbeats.iter_mut().filter(|heartbeat| is_abandoned(heartbeat)).for_each(|place| *place = None);
         }
     }
 
     fn schedule(&mut self, IncomingRequest { id, message }: IncomingRequest, recorder: &mut Recorder<ControllerEvent>) {
         let request = match valid(&message) {
             Ok(request) => request,
-            Err(reason) => return self.refuse(id, reason, recorder),
+            Err(reason) => return self.refuse(id, message.id, reason, recorder),
         };
         let due = DueRequest { id, request };
         let is_due = request.not_before <= self.tick;
@@ -111,16 +116,16 @@ impl RequestQueue {
             if self.stops.is_full()
                 && let Some(last) = self.stops.pop()
             {
-                self.refuse(last.id, Reason::Superseded, recorder);
+                self.refuse(last.id, last.request.id, Reason::Superseded, recorder);
             }
             // There is room now.
             let _ = self.stops.push(due);
         } else if is_due && self.newest_stop.is_some_and(|stop| id.is_before(stop)) {
-            self.refuse(id, Reason::Superseded, recorder);
+            self.refuse(id, request.id, Reason::Superseded, recorder);
         } else if is_due && request.is_empty() {
             if let Some(older) = self.heartbeats[place(request.source)].replace(due) {
                 // Heartbeats are not counted.
-                let refusal = self.in_force.refused(Reason::Superseded);
+                let refusal = self.in_force.refused(older.request.id, Reason::Superseded);
                 self.reply(older.id, &refusal, recorder);
             }
         } else {
@@ -129,7 +134,7 @@ impl RequestQueue {
             }
             let at = self.scheduled.partition_point(|waiting| waiting.request.not_before <= request.not_before);
             if self.scheduled.insert(at, due).is_err() {
-                self.refuse(id, Reason::QueueFull, recorder);
+                self.refuse(id, request.id, Reason::QueueFull, recorder);
             }
         }
     }
@@ -137,19 +142,22 @@ impl RequestQueue {
     /// Refuses the waiting requests that a newer one of the same source overrides.
     fn supersede(&mut self, newer: &Request, recorder: &mut Recorder<ControllerEvent>) {
         let tick = self.tick;
-        let overridden = |older: &Request| older.not_before <= tick && is_overridden(older, newer);
+        let overridden = |older: &Request| older.not_before <= tick && older.is_overridden_by(newer);
         while let Some(at) = self.scheduled.iter().position(|waiting| overridden(&waiting.request)) {
             let older = self.scheduled.remove(at);
-            self.refuse(older.id, Reason::Superseded, recorder);
+            self.refuse(older.id, older.request.id, Reason::Superseded, recorder);
         }
     }
 
-    /// Takes out the request that is due at a tick: a stop, else a heartbeat, else the one that has waited longest.
+    /// Takes out the request that is due at a tick: a stop, else a heartbeat, else the one that has waited longest of
+    /// those that have not expired.
     ///
+    /// * `now_ns` – the time of `CLOCK_MONOTONIC` (ns)
     /// * `urgent_only` – only a stop or a heartbeat
     pub fn due(
         &mut self,
         tick: u64,
+        now_ns: u64,
         urgent_only: bool,
         recorder: &mut Recorder<ControllerEvent>,
     ) -> Option<DueRequest> {
@@ -157,6 +165,7 @@ impl RequestQueue {
         if let Some(stop) = self.due_stop(recorder) {
             return Some(stop);
         }
+        self.refuse_expired(now_ns, recorder);
         let is_due = self.scheduled.first().is_some_and(|first| first.request.not_before <= tick);
         if !(self.took_heartbeat && is_due && !urgent_only)
             && let Some(heartbeat) = self.heartbeats.iter_mut().find_map(Option::take)
@@ -166,6 +175,22 @@ impl RequestQueue {
         }
         self.took_heartbeat = false;
         (is_due && !urgent_only).then(|| self.scheduled.remove(0))
+    }
+
+    /// Refuses the requests that have expired before the first one that is due and has not.
+    fn refuse_expired(&mut self, now_ns: u64, recorder: &mut Recorder<ControllerEvent>) {
+        let is_expired = |due: &DueRequest| due.request.has_expired(now_ns);
+        while self.scheduled.first().is_some_and(|first| first.request.not_before <= self.tick && is_expired(first)) {
+            let expired = self.scheduled.remove(0);
+            self.refuse(expired.id, expired.request.id, Reason::Expired, recorder);
+        }
+        for place in 0..self.heartbeats.len() {
+            if let Some(expired) = self.heartbeats[place].take_if(|heartbeat| is_expired(heartbeat)) {
+                // Heartbeats are not counted.
+                let refusal = self.in_force.refused(expired.request.id, Reason::Expired);
+                self.reply(expired.id, &refusal, recorder);
+            }
+        }
     }
 
     /// Takes out a stop that is due, and refuses everything that was to take effect before it.
@@ -181,7 +206,7 @@ impl RequestQueue {
         self.newest_stop = Some(stop.id);
         for _ in 0..older {
             let waiting = self.scheduled.remove(0);
-            self.refuse(waiting.id, Reason::Superseded, recorder);
+            self.refuse(waiting.id, waiting.request.id, Reason::Superseded, recorder);
         }
         Some(stop)
     }
@@ -192,6 +217,8 @@ impl RequestQueue {
     pub fn answer(&mut self, submitted: Option<DueRequest>, tick: &Tick, recorder: &mut Recorder<ControllerEvent>) {
         self.in_force.half_step = tick.report.half_step.index;
         self.in_force.command = tick.command;
+        self.in_force.mode = Some(tick.report.mode);
+        self.in_force.latched = tick.latched;
         if let (Some(refusal), Some(superseded)) = (&tick.superseded, self.under_evaluation) {
             self.under_evaluation = None;
             self.decided(superseded, refusal, recorder);
@@ -216,31 +243,33 @@ impl RequestQueue {
         if !due.request.is_empty() {
             self.tally.count(reply.verdict);
         }
-        self.reply(due.id, reply, recorder);
+        self.reply(due.id, &Reply { id: due.request.id, ..*reply }, recorder);
     }
 
     /// Refuses all requests that still wait, because the controller ends. Returns the tally of the others.
     pub fn close(self, recorder: &mut Recorder<ControllerEvent>) -> Tally {
-        let refusal = ReplyMessage::from(&self.in_force.refused(Reason::ShuttingDown));
         let (mut io, unread) = self.bridge.close();
         let mut unread = unread.into_iter();
         let waiting = self.stops.iter().chain(self.heartbeats.iter().flatten()).chain(&self.scheduled);
-        let mut refused: Vec<RequestId> = waiting.chain(&self.under_evaluation).map(|waiting| waiting.id).collect();
+        let waiting = waiting.chain(&self.under_evaluation).map(|waiting| (waiting.id, waiting.request.id));
+        let mut refused: Vec<(RequestId, u64)> = waiting.collect();
         io.receive();
         while let Some(request) = unread.next().or_else(|| io.next_request()) {
             recorder.push(request.event());
-            refused.push(request.id);
+            refused.push((request.id, request.message.id));
         }
-        for id in refused {
+        for (id, of_sender) in refused {
+            let refusal = ReplyMessage::from(&self.in_force.refused(of_sender, Reason::ShuttingDown));
             io.reply(id, &refusal);
             recorder.push(ControllerEvent::Reply(id.number(), refusal));
         }
         self.tally
     }
 
-    fn refuse(&mut self, id: RequestId, reason: Reason, recorder: &mut Recorder<ControllerEvent>) {
+    /// Refuses a request, which has the number `of_sender` for its operator.
+    fn refuse(&mut self, id: RequestId, of_sender: u64, reason: Reason, recorder: &mut Recorder<ControllerEvent>) {
         self.tally.count(Verdict::Refused);
-        let refusal = self.in_force.refused(reason);
+        let refusal = self.in_force.refused(of_sender, reason);
         self.reply(id, &refusal, recorder);
     }
 
@@ -253,23 +282,14 @@ impl RequestQueue {
 
 /// Where the heartbeat of a source is kept.
 fn place(source: Source) -> usize {
-    Source::ALL.iter().position(|&other| other == source).unwrap_or(0)
-}
-
-/// Whether a newer request leaves nothing of an older one in effect.
-fn is_overridden(older: &Request, newer: &Request) -> bool {
-    older.source == newer.source
-        && older.lifetime == newer.lifetime
-        && older.gait.turn.is_none_or(|_| newer.gait.turn.is_some())
-        && older.gait.speed.is_none_or(|_| newer.gait.speed.is_some())
-        && older.gait.extension.is_none_or(|_| newer.gait.extension.is_some())
-        && older.intent.is_none_or(|_| newer.intent.is_some())
+    Source::OPERATORS.iter().position(|&other| other == source).unwrap_or(0)
 }
 
 impl InForce {
-    /// A refusal that leaves everything in force.
-    fn refused(&self, reason: Reason) -> Reply {
-        Reply::refused(reason, self.half_step, self.command, self.intent)
+    /// A refusal of a request with a number of its sender's, which leaves everything in force.
+    fn refused(&self, of_sender: u64, reason: Reason) -> Reply {
+        let Self { half_step, command, intent, mode, latched } = *self;
+        Reply { id: of_sender, mode, latched, ..Reply::refused(reason, half_step, command, intent) }
     }
 }
 
@@ -282,6 +302,9 @@ fn valid(message: &RequestMessage) -> Result<Request, Reason> {
         MessageFault::NotFinite { .. } => Reason::NotFinite,
         _ => Reason::UnknownCode,
     })?;
+    if request.source == Source::ControlLoop {
+        return Err(Reason::UnknownCode);
+    }
     // In a stream an empty request is a heartbeat or the end; by itself it is a mistake.
     if request.is_empty() && request.lifetime == Lifetime::Latched { Err(Reason::Empty) } else { Ok(request) }
 }
@@ -316,6 +339,12 @@ mod tests {
             let request = Request { lifetime, ..empty };
             assert_eq!(valid(&(&request).into()), Ok(request));
         }
+    }
+
+    #[test]
+    fn no_operator_may_claim_to_be_the_control_loop() {
+        let request = Request { intent: Some(Intent::Hold), ..Request::new(Source::ControlLoop) };
+        assert_eq!(valid(&(&request).into()), Err(Reason::UnknownCode));
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use interface::LatchedFault;
 use serde::{Deserialize, Serialize};
 
 use crate::request_queue::Tally;
@@ -16,6 +17,9 @@ pub struct ControllerSummary {
     pub half_steps: u64,
     /// The mode after the last tick; empty if the loop never began.
     pub mode: String,
+    /// The first fault that was latched; absent in JSON if there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fault: Option<FaultSummary>,
     /// How many requests got which verdict.
     pub requests: Tally,
     /// Deadlines missed.
@@ -27,6 +31,21 @@ pub struct ControllerSummary {
     pub log_gaps: u64,
     /// Why the run was not recorded to its end; `None` if it was.
     pub record_error: Option<String>,
+}
+
+/// A fault that stopped the robot, as text.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FaultSummary {
+    /// What was wrong.
+    pub fault: String,
+    /// When it was latched: time since the controller's first tick (s).
+    pub time_s: f64,
+}
+
+impl From<LatchedFault> for FaultSummary {
+    fn from(latched: LatchedFault) -> Self {
+        Self { fault: latched.text(), time_s: (latched.time * 1e3).round() / 1e3 }
+    }
 }
 
 /// Summary of a run of the plant's process.
@@ -50,14 +69,14 @@ pub struct PlantSummary {
 
 impl fmt::Display for ControllerSummary {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        let Self { ticks, half_steps, mode, requests, deadline_misses, timing, log_gaps, record_error } = self;
+        let Self { ticks, half_steps, mode, fault, requests, deadline_misses, timing, log_gaps, record_error } = self;
         let mode = if mode.is_empty() { "never started" } else { mode };
-        write!(
-            out,
-            "{ticks} ticks, {half_steps} half-steps, {mode}; {requests}; {deadline_misses} deadlines missed, \
-             {log_gaps} \
-             reports dropped"
-        )?;
+        write!(out, "{}, {}, {mode}", counted(*ticks, "tick"), counted(*half_steps, "half-step"))?;
+        if let Some(FaultSummary { fault, time_s }) = fault {
+            write!(out, " (fault at {time_s:.2} s: {fault})")?;
+        }
+        let (misses, gaps) = (counted(*deadline_misses, "deadline"), counted(*log_gaps, "report"));
+        write!(out, "; {requests}; {misses} missed, {gaps} dropped")?;
         timing.map_or(Ok(()), |timing| write!(out, "; {timing}"))?;
         record_error.as_ref().map_or(Ok(()), |error| write!(out, "\nnot recorded to the end: {error}"))
     }
@@ -65,7 +84,7 @@ impl fmt::Display for ControllerSummary {
 
 impl fmt::Display for PlantSummary {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        write!(out, "{} ticks, {} deadlines missed, ", self.ticks, self.deadline_misses)?;
+        write!(out, "{}, {} missed, ", counted(self.ticks, "tick"), counted(self.deadline_misses, "deadline"))?;
         match self.fell_at_s {
             None => write!(out, "no fall"),
             Some(time) => write!(out, "fell at {time:.2} s"),
@@ -78,5 +97,40 @@ impl fmt::Display for PlantSummary {
 impl fmt::Display for Tally {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
         write!(out, "requests: {} accepted, {} limited, {} refused", self.accepted, self.limited, self.refused)
+    }
+}
+
+/// A number of things: `1 tick`, `2 ticks`.
+pub fn counted(number: u64, name: &str) -> String {
+    let plural = if number == 1 { "" } else { "s" };
+    format!("{number} {name}{plural}")
+}
+
+#[cfg(test)]
+mod tests {
+    use interface::Fault;
+
+    use super::*;
+
+    #[test]
+    fn the_last_line_of_a_faulted_controller_names_fault_and_time() {
+        let summary = ControllerSummary {
+            ticks: 9000,
+            half_steps: 1,
+            mode: "faulted".to_owned(),
+            fault: Some(LatchedFault { fault: Fault::MeasurementStale, time: 3.3004, cause: None }.into()),
+            requests: Tally::default(),
+            deadline_misses: 1,
+            timing: None,
+            log_gaps: 0,
+        };
+        assert_eq!(
+            summary.to_string(),
+            "9000 ticks, 1 half-step, faulted (fault at 3.30 s: no valid measurement has arrived for too long); \
+             requests: 0 accepted, 0 limited, 0 refused; 1 deadline missed, 0 reports dropped"
+        );
+        let json = serde_json::to_value(&summary).unwrap();
+        assert_eq!(json["fault"]["time_s"], 3.3);
+        assert_eq!(serde_json::from_value::<ControllerSummary>(json).unwrap(), summary);
     }
 }

@@ -8,8 +8,8 @@
 use std::time::Duration;
 
 use interface::{COMMAND_TIMEOUT_MIN, Lifetime, Reply, Request, Source, Verdict};
-use runtime::Rate;
-use wire::{Instance, ObserverPorts, OperatorPorts, PendingReply};
+use runtime::{Rate, now_ns};
+use wire::{Instance, ObserverPorts, OperatorPorts, PendingReply, RequestError};
 
 use crate::OperatorError;
 use crate::script::TimedRequest;
@@ -17,6 +17,7 @@ use crate::script::TimedRequest;
 /// A stream of commands to a controller that runs in another process.
 pub struct CommandStream {
     operator: OperatorPorts,
+    observer: ObserverPorts,
     clock: ControllerClock,
     timeout: Option<Duration>,
     /// The source of the stream's requests, and so of its heartbeats.
@@ -30,14 +31,24 @@ pub struct CommandStream {
 }
 
 /// The controller's time as its reports give it: it may run faster or slower than the wall clock.
+#[derive(Debug, Default)]
 struct ControllerClock {
-    observer: ObserverPorts,
-    /// The controller's tick when the stream began.
+    /// The controller's tick from which times are counted: that of the first report since it started.
     started_at: Option<u64>,
+    /// Ticks of the stream before the controller was restarted.
+    before: u64,
     now: u64,
 }
 
-/// How long the controller may take to reply: long enough to start its plant by hand.
+/// A request that was sent and has no reply yet. Dropping it cancels the request.
+#[derive(Debug)]
+pub struct SentRequest {
+    pending: PendingReply,
+    sent_ns: u64,
+}
+
+/// How long the controller may take to reply, and to begin with a request before it expires: long enough to start its
+/// plant by hand.
 const REPLY_TIMEOUT: Duration = Duration::from_secs(10);
 /// How long before it is due a request is sent: late enough that closing the stream ends its influence.
 const LEAD: Duration = Duration::from_millis(20);
@@ -53,8 +64,8 @@ impl CommandStream {
         let operator = OperatorPorts::connect(instance)?;
         let observer = ObserverPorts::connect(instance)?;
         let rate = Rate::clamped(observer.reports.rate_hz());
-        let clock = ControllerClock { observer, started_at: None, now: 0 };
-        Ok(Self { operator, clock, timeout, source: Source::Script, last_sent: None, heartbeat: None, rate })
+        let clock = ControllerClock::default();
+        Ok(Self { operator, observer, clock, timeout, source: Source::Script, last_sent: None, heartbeat: None, rate })
     }
 
     /// Reads the controller's clock and sends a heartbeat if it is time for one. Call it at least every few
@@ -63,7 +74,7 @@ impl CommandStream {
     /// # Errors
     /// Shared memory failed, or the controller has gone.
     pub fn keep_alive(&mut self) -> Result<(), OperatorError> {
-        self.clock.update()?;
+        self.update_clock()?;
         if self.heartbeat.as_ref().is_some_and(|heartbeat| !matches!(heartbeat.poll(), Ok(None))) {
             self.heartbeat = None;
         }
@@ -82,7 +93,7 @@ impl CommandStream {
         if timed.time.is_none() {
             return Some(0);
         }
-        let due = self.clock.started_at? + timed.tick(self.rate);
+        let due = self.clock.tick_after(timed.tick(self.rate))?;
         is_to_be_sent(self.clock.now, due, self.rate).then_some(due)
     }
 
@@ -96,14 +107,53 @@ impl CommandStream {
     /// # Errors
     /// The controller does not reply, or its reply is invalid.
     pub fn request(&mut self, request: &Request) -> Result<Reply, OperatorError> {
-        let request = Request { lifetime: Lifetime::Streamed, timeout: self.timeout(), ..*request };
+        let request = self.streamed(request);
+        let reply = self.ask(&request)?;
+        self.note(&reply)?;
+        Ok(reply)
+    }
+
+    /// Sends a request, which stays in effect while the stream is active. [`poll`](Self::poll) gives the reply.
+    ///
+    /// # Errors
+    /// There is no controller, or too many requests have no reply.
+    pub fn send(&mut self, request: &Request) -> Result<SentRequest, OperatorError> {
+        let request = self.streamed(request);
+        // Every request is a heartbeat, too.
+        self.heartbeat = None;
+        let pending = self.operator.requests.send(&(&request).into())?;
+        Ok(SentRequest { pending, sent_ns: now_ns() })
+    }
+
+    /// The reply to a request, if it has arrived.
+    ///
+    /// # Errors
+    /// The controller does not reply in time, has gone, or its reply is invalid.
+    pub fn poll(&mut self, sent: &SentRequest) -> Result<Option<Reply>, OperatorError> {
+        let age = Duration::from_nanos(now_ns().saturating_sub(sent.sent_ns));
+        let reply = match sent.pending.poll()? {
+            Some(reply) => reply.checked()?,
+            None if age < REPLY_TIMEOUT => return Ok(None),
+            None => return Err(RequestError::TimedOut { seconds: REPLY_TIMEOUT.as_secs_f64().to_string() }.into()),
+        };
+        self.note(&reply)?;
+        Ok(Some(reply))
+    }
+
+    /// A request of this stream, which expires when nobody waits for the reply any more.
+    fn streamed(&mut self, request: &Request) -> Request {
         self.source = request.source;
-        let reply = self.send(&request)?;
+        let expires_ns = Some(now_ns() + REPLY_TIMEOUT.as_nanos() as u64);
+        Request { lifetime: Lifetime::Streamed, timeout: self.timeout(), expires_ns, ..*request }
+    }
+
+    /// Notes that a reply has arrived.
+    fn note(&mut self, reply: &Reply) -> Result<(), OperatorError> {
         if reply.verdict != Verdict::Refused {
-            self.clock.update()?;
+            self.update_clock()?;
             self.last_sent = Some(self.clock.now);
         }
-        Ok(reply)
+        Ok(())
     }
 
     /// Ends the stream: its last commands stay in effect. The controller may have gone before.
@@ -112,12 +162,12 @@ impl CommandStream {
     /// The controller is there but does not reply.
     pub fn close(mut self) -> Result<(), OperatorError> {
         if self.last_sent.is_some() && self.is_connected() {
-            self.send(&self.empty_request(Lifetime::Release))?;
+            self.ask(&self.empty_request(Lifetime::Release))?;
         }
         Ok(())
     }
 
-    fn send(&mut self, request: &Request) -> Result<Reply, OperatorError> {
+    fn ask(&mut self, request: &Request) -> Result<Reply, OperatorError> {
         // Every request is a heartbeat, too.
         self.heartbeat = None;
         Ok(self.operator.requests.ask(&request.into(), REPLY_TIMEOUT)?.checked()?)
@@ -125,6 +175,13 @@ impl CommandStream {
 
     fn empty_request(&self, lifetime: Lifetime) -> Request {
         Request { lifetime, timeout: self.timeout(), ..Request::new(self.source) }
+    }
+
+    fn update_clock(&mut self) -> Result<(), OperatorError> {
+        while let Some(report) = self.observer.reports.next_report()? {
+            self.clock.pass(report.tick);
+        }
+        Ok(())
     }
 
     fn timeout(&self) -> Option<f64> {
@@ -149,18 +206,37 @@ fn heartbeat_ticks(timeout: Duration, rate: Rate) -> u64 {
 }
 
 impl ControllerClock {
-    fn update(&mut self) -> Result<(), OperatorError> {
-        while let Some(report) = self.observer.reports.next_report()? {
-            self.now = report.tick;
-            self.started_at.get_or_insert(report.tick);
+    /// The controller's tick so many ticks after the stream began, if it has reported yet.
+    fn tick_after(&self, ticks: u64) -> Option<u64> {
+        Some(self.started_at? + ticks.saturating_sub(self.before))
+    }
+
+    /// Takes note of the controller's newest tick.
+    fn pass(&mut self, tick: u64) {
+        if let Some(started_at) = self.started_at.filter(|_| tick < self.now) {
+            // The controller was restarted, and counts from 0; the stream's time goes on.
+            self.before += self.now - started_at;
+            self.started_at = Some(tick);
         }
-        Ok(())
+        self.now = tick;
+        self.started_at.get_or_insert(tick);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_time_of_a_stream_goes_on_when_the_controller_is_restarted() {
+        let mut clock = ControllerClock::default();
+        assert_eq!(clock.tick_after(5), None, "nothing is known yet");
+        [5000, 5001, 7000].into_iter().for_each(|tick| clock.pass(tick));
+        assert_eq!(clock.tick_after(3000), Some(8000));
+        [0, 1, 500].into_iter().for_each(|tick| clock.pass(tick));
+        assert_eq!(clock.tick_after(3000), Some(1000), "2000 of the 3000 had passed before");
+        assert_eq!(clock.tick_after(1000), Some(0), "that is over");
+    }
 
     #[test]
     fn requests_are_sent_twenty_milliseconds_early_at_any_rate() {

@@ -1,11 +1,14 @@
 //! Client library: commands a controller that runs in another process.
 //!
 //! * [`command_stream`]: a stream of commands with a heartbeat, as from a joystick or a program.
+//! * [`lines`] are read from any input, and those of a stream wait in a [`line_queue`] until they are sent.
 //! * [`script`] and [`script_runner`]: requests with their times, read from JSON lines and sent ahead of time.
 //! * [`reply_text`]: replies as text and as JSON.
 
 pub mod command_stream;
 pub mod error;
+pub mod line_queue;
+pub mod lines;
 pub mod reply_text;
 pub mod script;
 pub mod script_runner;

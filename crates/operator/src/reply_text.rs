@@ -6,6 +6,9 @@ use serde::Serialize;
 /// A reply as JSON; angles in degrees.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ReplyJson {
+    /// The request's id; absent if the sender chose none.
+    #[serde(skip_serializing_if = "is_zero")]
+    id: u64,
     verdict: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<&'static str>,
@@ -21,6 +24,21 @@ pub struct ReplyJson {
     in_command: Option<InCommandInJson>,
     #[serde(skip_serializing_if = "Option::is_none")]
     predicted_margin_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mode: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fault: Option<FaultInJson>,
+}
+
+/// The latched fault, as JSON.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct FaultInJson {
+    fault: String,
+    time_s: f64,
+}
+
+fn is_zero(id: &u64) -> bool {
+    *id == 0
 }
 
 /// The active limit of a request, as JSON.
@@ -45,6 +63,7 @@ impl From<&Reply> for ReplyJson {
     fn from(reply: &Reply) -> Self {
         let granted = &reply.granted;
         Self {
+            id: reply.id,
             verdict: reply.verdict.text(),
             reason: (reply.reason != Reason::None).then(|| reply.reason.text()),
             effect_half_step: reply.effect_half_step,
@@ -62,6 +81,10 @@ impl From<&Reply> for ReplyJson {
                 remaining_s: rounded(in_command.remaining),
             }),
             predicted_margin_mm: reply.predicted_margin.map(|margin| rounded(margin * 1e3)),
+            mode: reply.mode.map(|mode| mode.text()),
+            fault: reply
+                .latched
+                .map(|latched| FaultInJson { fault: latched.text(), time_s: (latched.time * 1e3).round() / 1e3 }),
         }
     }
 }
@@ -89,6 +112,9 @@ fn objection_text(request: &Request, reply: &Reply) -> String {
             "`{source}` is in control and outranks `{requester}`; its authority expires in {remaining:.2} s"
         );
     }
+    if let (Reason::Faulted | Reason::FaultPersists, Some(latched)) = (reply.reason, reply.latched) {
+        return format!("{} ({latched})", reply.reason);
+    }
     let Some(ActiveLimit { joint, value, limit }) = reply.active_limit else { return reply.reason.to_string() };
     let Unit { per_si, name } = unit(reply.reason);
     let [value, limit] = [value, limit].map(|number| (number * per_si * 1e3).round() / 1e3 + 0.0);
@@ -107,7 +133,7 @@ struct Unit {
 fn unit(reason: Reason) -> Unit {
     const DEGREES: f64 = 180.0 / std::f64::consts::PI;
     let (per_si, name) = match reason {
-        Reason::TurnLimit | Reason::ExtensionLimit | Reason::JointRange => (DEGREES, "°"),
+        Reason::TurnLimit | Reason::ExtensionLimit | Reason::JointRange | Reason::NotInStand => (DEGREES, "°"),
         Reason::JointRate => (DEGREES, " °/s"),
         Reason::Torque => (1.0, " N·m"),
         Reason::Voltage => (1.0, " V"),
@@ -125,7 +151,8 @@ fn unit(reason: Reason) -> Unit {
         | Reason::Superseded
         | Reason::Fallen
         | Reason::Faulted
-        | Reason::FaultPersists => (1.0, ""),
+        | Reason::FaultPersists
+        | Reason::Expired => (1.0, ""),
     };
     Unit { per_si, name }
 }
@@ -151,7 +178,7 @@ fn rounded(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use expect_test::expect_file;
-    use interface::{Command, GaitChange, Intent, Source};
+    use interface::{Command, Fault, GaitChange, Intent, LatchedFault, Source};
     use model::Joint;
 
     use super::*;
@@ -229,7 +256,9 @@ mod tests {
                 _ => Verdict::Refused,
             };
             let predicted_margin = (verdict != Verdict::Refused).then_some(0.0214);
-            let reply = Reply { active_limit, authority, predicted_margin, ..reply(verdict, reason) };
+            let is_faulted = matches!(reason, Reason::Faulted | Reason::FaultPersists);
+            let latched = is_faulted.then_some(LatchedFault { fault: Fault::MeasurementStale, time: 3.3, cause: None });
+            let reply = Reply { active_limit, authority, predicted_margin, latched, ..reply(verdict, reason) };
             text += &format!("{reason:?}\n  {}\n", reply_text(&request, &reply));
             text += &format!("  {}\n", serde_json::to_string(&ReplyJson::from(&reply)).unwrap());
         }

@@ -5,13 +5,16 @@
 //! ```
 //!
 //! `t` is the time since the start (s) and must not decrease; a request without it is due at once. At least one of the
-//! other keys is required. Empty lines are skipped.
+//! other keys is required. Empty lines are skipped. A request's id is the number of its line.
 
-use interface::{GaitChange, Intent, Request, Source};
+use std::io::BufRead;
 use std::time::Duration;
 
+use interface::{GaitChange, Intent, Request, Source};
 use runtime::Rate;
 use serde::{Deserialize, Deserializer};
+
+use crate::lines::{BadLine, Lines};
 
 /// A line of a script: a request and its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,24 +76,39 @@ impl Reader {
     ///
     /// # Errors
     /// The line is no request. The next line can be read all the same.
-    pub fn read(&mut self, text: &str) -> Option<Result<TimedRequest, ScriptError>> {
+    pub fn read(&mut self, text: Result<&str, BadLine>) -> Option<Result<TimedRequest, ScriptError>> {
         self.line += 1;
-        let text = text.trim();
-        let problem = |problem| ScriptError { name: self.name.clone(), line: self.line, problem };
-        (!text.is_empty()).then(|| timed_request(text, &mut self.time).map_err(problem))
+        let number = self.line;
+        let timed = match text.map(str::trim) {
+            Ok("") => return None,
+            Ok(text) => timed_request(text, &mut self.time),
+            Err(bad) => Err(format!("{bad}; {EXAMPLE}")),
+        };
+        let problem = |problem| ScriptError { name: self.name.clone(), line: number, problem };
+        let numbered = |timed: TimedRequest| TimedRequest { request: Request { id: number, ..timed.request }, ..timed };
+        Some(timed.map(numbered).map_err(problem))
     }
 
     /// Reads a whole script.
     ///
     /// # Errors
-    /// Every line that is no request.
-    pub fn read_all(name: impl Into<String>, text: &str) -> Result<Vec<TimedRequest>, Vec<ScriptError>> {
+    /// Every line that is no request, or that the input ends with an error.
+    pub fn read_all(name: impl Into<String>, input: impl BufRead) -> Result<Vec<TimedRequest>, Vec<ScriptError>> {
         let mut reader = Self::new(name);
         let (mut steps, mut errors) = (Vec::new(), Vec::new());
-        for line in text.lines().filter_map(|line| reader.read(line)) {
-            match line {
-                Ok(step) => steps.push(step),
-                Err(error) => errors.push(error),
+        for line in Lines::new(input) {
+            let read = match line {
+                Ok(line) => reader.read(line.as_deref().map_err(|bad| *bad)),
+                Err(error) => {
+                    let (name, line, problem) = (reader.name.clone(), reader.line + 1, error.to_string());
+                    errors.push(ScriptError { name, line, problem });
+                    break;
+                }
+            };
+            match read {
+                None => {}
+                Some(Ok(step)) => steps.push(step),
+                Some(Err(error)) => errors.push(error),
             }
         }
         if errors.is_empty() { Ok(steps) } else { Err(errors) }
@@ -159,7 +177,7 @@ mod tests {
                 "-1e999", "1e308", "null", "[", "]", "\"extension_deg\"", "nan", "\u{0}", "\n",
             ];
             let text: String = parts.iter().map(|(piece, other)| *PIECES.get(*piece).unwrap_or(&other.as_str())).collect();
-            match Reader::read_all("fuzz", &text) {
+            match Reader::read_all("fuzz", text.as_bytes()) {
                 Ok(steps) => assert!(steps.iter().all(|step| step.time.is_none_or(|t| t.as_secs_f64() <= TIME_MAX))),
                 Err(errors) => assert!(errors.iter().all(|error| error.to_string().starts_with("fuzz:"))),
             }
@@ -167,16 +185,17 @@ mod tests {
     }
 
     fn problem(line: &str) -> String {
-        Reader::new("f").read(line).expect("a line").expect_err("it is wrong").to_string()
+        Reader::new("f").read(Ok(line)).expect("a line").expect_err("it is wrong").to_string()
     }
 
     #[test]
     fn script_line_is_read_in_degrees_and_seconds() {
-        let step = Reader::new("f").read(r#"{"t":1.5,"turn_deg":180,"speed":1.2,"intent":"stop"}"#).unwrap().unwrap();
+        let step = Reader::new("f").read(Ok(r#"{"t":1.5,"turn_deg":180,"speed":1.2,"intent":"stop"}"#));
+        let step = step.unwrap().unwrap();
         assert_eq!(step.tick(Rate::clamped(1000)), 1500);
         assert_eq!(step.request.gait.turn, Some(std::f64::consts::PI));
         assert_eq!((step.request.gait.speed, step.request.gait.extension), (Some(1.2), None));
-        assert_eq!(step.request.intent, Some(Intent::Stop));
+        assert_eq!((step.request.intent, step.request.id), (Some(Intent::Stop), 1));
     }
 
     #[test]
@@ -192,9 +211,19 @@ mod tests {
     }
 
     #[test]
+    fn bytes_that_are_no_text_are_refused_with_their_line() {
+        let script = b"\xef\xbb\xbf{\"t\":1,\"speed\":1}\r\n\r\n{\"speed\":\"\xff\"}\n\0\n{\"speed\":1}\n";
+        let errors = Reader::read_all("f", &script[..]).unwrap_err();
+        let texts: Vec<String> = errors.iter().map(ScriptError::to_string).collect();
+        assert!(texts[0].starts_with("f:3: not UTF-8 (byte 11 of the line); write e.g. {"), "{texts:?}");
+        assert!(texts[1].starts_with("f:4: not a JSON object"), "{texts:?}");
+        assert_eq!(texts.len(), 2, "{texts:?}");
+    }
+
+    #[test]
     fn script_times_must_not_decrease_and_errors_have_line_numbers() {
         let script = "{\"t\":2,\"speed\":1}\n\n{\"t\":1,\"speed\":1}\nnonsense\n{\"speed\":1}\n";
-        let errors = Reader::read_all("f", script).unwrap_err();
+        let errors = Reader::read_all("f", script.as_bytes()).unwrap_err();
         assert_eq!(errors.iter().map(|error| error.line).collect::<Vec<_>>(), [3, 4]);
         assert_eq!(errors[0].to_string(), "f:3: t = 1: must not be less than 2, the time of an earlier line");
     }

@@ -64,6 +64,7 @@ mod ports;
 pub mod python;
 mod report;
 mod request;
+mod running;
 mod runtime_folder;
 mod service_contract;
 
@@ -77,9 +78,10 @@ pub use message::*;
 pub use ports::{ControllerPorts, ObserverPorts, OperatorPorts, PlantPorts};
 pub use report::{ReportPublisher, ReportSubscriber};
 pub use request::{MAX_OPERATORS, MAX_UNANSWERED, PendingReply, RequestClient, RequestServer, Responder};
+pub use running::running_instances;
 
 /// Version of all layouts and meanings. Processes of different versions refuse to connect.
-pub const PROTOCOL: u32 = 3;
+pub const PROTOCOL: u32 = 4;
 
 /// Control rate of an instance unless [`Instance::with_rate_hz`] sets another one (Hz).
 pub const DEFAULT_RATE_HZ: u32 = 1000;

@@ -41,18 +41,19 @@ fn measurement_message_has_a_fixed_layout() {
 
 #[test]
 fn request_message_has_a_fixed_layout() {
-    assert_layout!(RequestMessage, 56, {
+    assert_layout!(RequestMessage, 72, {
         not_before @ 0 + 8, present @ 8 + 4, intent @ 12 + 4, source @ 16 + 4, lasting @ 20 + 4, turn @ 24 + 8,
-        speed @ 32 + 8, extension @ 40 + 8, age_limit @ 48 + 8,
+        speed @ 32 + 8, extension @ 40 + 8, age_limit @ 48 + 8, id @ 56 + 8, expires_ns @ 64 + 8,
     });
 }
 
 #[test]
 fn reply_message_has_a_fixed_layout() {
-    assert_layout!(ReplyMessage, 88, {
-        verdict @ 0 + 4, reason @ 4 + 4, effect_half_step @ 8 + 8, turn @ 16 + 8, speed @ 24 + 8, extension @ 32 + 8,
-        intent @ 40 + 4, known @ 44 + 4, joint @ 48 + 4, source @ 52 + 4, value @ 56 + 8, limit @ 64 + 8,
-        remaining @ 72 + 8, predicted_margin @ 80 + 8,
+    assert_layout!(ReplyMessage, 112, {
+        id @ 0 + 8, verdict @ 8 + 4, reason @ 12 + 4, effect_half_step @ 16 + 8, turn @ 24 + 8, speed @ 32 + 8,
+        extension @ 40 + 8, intent @ 48 + 4, known @ 52 + 4, joint @ 56 + 4, source @ 60 + 4, value @ 64 + 8,
+        limit @ 72 + 8, remaining @ 80 + 8, predicted_margin @ 88 + 8, mode @ 96 + 4, fault @ 100 + 4,
+        fault_time @ 104 + 8,
     });
 }
 

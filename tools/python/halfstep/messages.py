@@ -9,7 +9,7 @@ from enum import IntEnum, IntFlag
 
 from .message import Message
 
-PROTOCOL = 3
+PROTOCOL = 4
 """The version of all layouts and meanings."""
 
 
@@ -26,6 +26,7 @@ class Source(IntEnum):
     SCRIPT = 1  # script
     TELEOP = 2  # teleop
     PROGRAM = 3  # program
+    CONTROL_LOOP = 4  # control loop
 
 
 class Lifetime(IntEnum):
@@ -63,6 +64,7 @@ class Reason(IntEnum):
     FALLEN = 19  # the robot has fallen: set it upright and send reset
     FAULTED = 20  # a fault is latched: send reset
     FAULT_PERSISTS = 21  # the fault persists: the robot must be upright and sending measurements
+    EXPIRED = 22  # it expired before it could take effect
 
 
 class Mode(IntEnum):
@@ -148,7 +150,7 @@ class Measurement(Message):
 
 
 class Request(Message):
-    """`halfstep.Request.v2`, 56 bytes."""
+    """`halfstep.Request.v3`, 72 bytes."""
 
     not_before: int
     present: int
@@ -159,6 +161,8 @@ class Request(Message):
     speed: float
     extension: float
     age_limit: float
+    id: int
+    expires_ns: int
 
     _fields_ = [
         ("not_before", c_uint64),
@@ -170,17 +174,20 @@ class Request(Message):
         ("speed", c_double),
         ("extension", c_double),
         ("age_limit", c_double),
+        ("id", c_uint64),
+        ("expires_ns", c_uint64),
     ]
 
     @staticmethod
     def type_name() -> str:
         """What shared memory calls it."""
-        return "halfstep.Request.v2"
+        return "halfstep.Request.v3"
 
 
 class Reply(Message):
-    """`halfstep.Reply.v2`, 88 bytes."""
+    """`halfstep.Reply.v3`, 112 bytes."""
 
+    id: int
     verdict: int
     reason: int
     effect_half_step: int
@@ -195,8 +202,12 @@ class Reply(Message):
     limit: float
     remaining: float
     predicted_margin: float
+    mode: int
+    fault: int
+    fault_time: float
 
     _fields_ = [
+        ("id", c_uint64),
         ("verdict", c_uint32),
         ("reason", c_uint32),
         ("effect_half_step", c_uint64),
@@ -211,12 +222,15 @@ class Reply(Message):
         ("limit", c_double),
         ("remaining", c_double),
         ("predicted_margin", c_double),
+        ("mode", c_uint32),
+        ("fault", c_uint32),
+        ("fault_time", c_double),
     ]
 
     @staticmethod
     def type_name() -> str:
         """What shared memory calls it."""
-        return "halfstep.Reply.v2"
+        return "halfstep.Reply.v3"
 
 
 class Report(Message):

@@ -12,10 +12,10 @@ import iceoryx2 as iox2
 
 from .errors import HalfstepError, NoController, TimedOut
 from .instance import Agreement, Instance
-from .messages import Intent, Lifetime, Reason, Reply, Report, Request, Source, Verdict
+from .messages import Fault, Intent, Lifetime, Reason, Reply, Report, Request, Source, Verdict
 
 _TURN, _SPEED, _EXTENSION, _INTENT = 1, 2, 4, 8
-_MARGIN = 4
+_MARGIN, _FAULT = 4, 8
 _GLANCE_S = 0.001
 
 
@@ -35,6 +35,10 @@ class Answer:
     """Granted [rad]."""
     predicted_margin: float | None
     """Least distance of the zero-moment point to the sole's edge foreseen for what was granted [m]."""
+    latched: Fault | None
+    """The fault that keeps the robot from walking until a reset, if there is one."""
+    latched_at: float | None
+    """When it was latched: time of the controller since its first tick [s]."""
 
     @property
     def accepted(self) -> bool:
@@ -85,9 +89,11 @@ class Operator:
 
         `not_before` is the controller's tick before which it must not take effect: 0 is at once. With `silence_s` this
         program is in command from now on, those after it are refused, and the walk comes to a stand when it asks nothing
-        for that long; without, what is asked lasts until another request changes it.
+        for that long; without, what is asked lasts until another request changes it. What the controller has not begun with
+        after `timeout_s` expires: it is not carried out later.
         """
-        request = Request(not_before=not_before, source=Source.PROGRAM)
+        expires_ns = time.monotonic_ns() + int(timeout_s * 1e9)
+        request = Request(not_before=not_before, source=Source.PROGRAM, expires_ns=expires_ns)
         if silence_s is not None:
             request.lasting, request.age_limit = Lifetime.STREAMED, silence_s
         for bit, field, value in (
@@ -117,6 +123,8 @@ class Operator:
                     reply.speed,
                     reply.extension,
                     reply.predicted_margin if reply.known & _MARGIN else None,
+                    Fault(reply.fault) if reply.known & _FAULT else None,
+                    reply.fault_time if reply.known & _FAULT else None,
                 )
             if not connected:
                 raise HalfstepError("the controller dropped the request, or left")

@@ -2,6 +2,7 @@
 
 use std::fmt::Display;
 use std::fs;
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use config::Config;
@@ -81,10 +82,8 @@ fn check_others(config: &ConfigFiles, errors: &mut Errors) {
 
 fn check_script(file: &Path, errors: &mut Errors) {
     let name = file.display().to_string();
-    let Some(text) = errors.note(config::bounded_text(file).map_err(|error| format!("{name}: {error}"))) else {
-        return;
-    };
-    if let Err(wrong) = script::Reader::read_all(name, &text) {
+    let Some(input) = errors.note(fs::File::open(file).map_err(|error| format!("{name}: {error}"))) else { return };
+    if let Err(wrong) = script::Reader::read_all(name, BufReader::new(input)) {
         errors.0.extend(wrong.iter().map(ScriptError::to_string));
     }
 }

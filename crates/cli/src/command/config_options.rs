@@ -3,7 +3,9 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use node::configuration::ConfigFiles;
+use node::configuration::{ConfigFiles, REALTIME};
+
+use super::options::path_option;
 
 /// Where the configuration lies.
 #[derive(Clone, Debug, clap::Args)]
@@ -26,14 +28,15 @@ impl ConfigOptions {
         ConfigFiles::new(config, mechanism, nominal)
     }
 
+    /// Path of the real-time parameters.
+    pub(super) fn realtime_file(&self) -> PathBuf {
+        self.config.join(REALTIME)
+    }
+
     /// The same options as arguments for another process.
     pub(super) fn arguments(&self) -> Vec<OsString> {
         let files = [("--mechanism", &self.mechanism), ("--nominal", &self.nominal)];
         let files = files.into_iter().filter_map(|(option, file)| Some((option, file.as_ref()?)));
-        [("--config", &self.config)]
-            .into_iter()
-            .chain(files)
-            .flat_map(|(option, path)| [option.into(), path.into()])
-            .collect()
+        [("--config", &self.config)].into_iter().chain(files).map(|(option, path)| path_option(option, path)).collect()
     }
 }

@@ -3,14 +3,17 @@
 use std::path::Path;
 
 use controller::Driver;
+use interface::Mode;
 use node::admission_worker::ClockedWorker;
+use node::announcements::Announced;
 use node::configuration::{self, CONTROLLER, ConfigFiles, Errors};
 use node::controller_loop::run_controller;
 use node::cycle::{Clock, Cycles};
 use node::interrupt::Interrupt;
 use node::request_bridge::RequestBridge;
 use node::request_queue::{CAPACITY, RequestQueue};
-use node::summary::ControllerSummary;
+use node::summary::{ControllerSummary, FaultSummary};
+use node::tell::tell;
 use node::{realtime, recorder};
 use record::{Metadata, Provenance};
 use runtime::Rate;
@@ -62,11 +65,19 @@ impl ControllerArgs {
         let mut driver = Driver { controller, worker };
         // Who answers may run wherever there is room; who writes down has time.
         realtime.keep_off_the_loop(clock);
-        let (mut recorder, recorder_thread) =
-            recorder::of_controller(clock, rate, self.recorded(&files, rate, fingerprint)?, reports)?;
+        let (mut recorder, recorder_thread) = recorder::of_controller(
+            clock,
+            rate,
+            self.recorded(&files, rate, fingerprint)?,
+            reports,
+            self.child.announced(),
+        )?;
 
         // Last: the other threads must not be pinned to the loop's core.
-        let _granted = realtime::enter(&realtime.controller, clock, "controller");
+        let _granted = realtime::enter(&realtime.controller, clock, "controller", &self.config.realtime_file());
+        if self.child.announced() == Announced::All {
+            tell(format_args!("controller: waits for the plant on instance `{}`", self.instance.instance));
+        }
         let run = run_controller(
             &mut driver,
             &mut cycles,
@@ -84,6 +95,7 @@ impl ControllerArgs {
             ticks: run.ticks,
             half_steps: run.half_steps,
             mode: run.mode.map_or(String::new(), |mode| mode.text().to_owned()),
+            fault: run.fault.map(FaultSummary::from),
             requests,
             deadline_misses: run.missed,
             timing: (clock == Clock::Realtime).then_some(run.timing),
@@ -92,7 +104,7 @@ impl ControllerArgs {
         };
         print(json, &summary)?;
         let is_recorded = summary.record_error.is_none();
-        Ok(Status::success_if(run.mode != Some(interface::Mode::Fallen) && is_recorded))
+        Ok(Status::success_if(!matches!(run.mode, Some(Mode::Fallen | Mode::Faulted)) && is_recorded))
     }
 
     /// Where to record to, if anywhere, and what the run begins with.

@@ -9,10 +9,11 @@ use interchange::urdf::urdf_text;
 use model::Mechanism;
 use node::configuration::Errors;
 use node::realtime::RealtimeParameters;
+use serde::Serialize;
 use wire::python::python_messages;
 
 use crate::error::CliError;
-use crate::output::print_line;
+use crate::output::{print_json, print_line};
 use crate::status::Status;
 
 /// Export the robot or the messages for other programs
@@ -56,8 +57,17 @@ enum Format {
     },
 }
 
+/// What was exported, as JSON: the text, or the file that holds it.
+#[derive(Serialize)]
+struct Exported {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    text: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<PathBuf>,
+}
+
 impl ExportArgs {
-    pub(super) fn run(self) -> Result<Status, CliError> {
+    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
         let (text, out) = match self.format {
             Format::Urdf { mechanism, out } => {
                 let mechanism = Mechanism::load(&mechanism).map_err(CliError::bad_input)?;
@@ -73,11 +83,14 @@ impl ExportArgs {
             }
             Format::Python { out } => (python_messages(), out),
         };
-        match out {
-            None => print_line(text.trim_end())?,
-            Some(file) => {
-                std::fs::write(&file, text).map_err(CliError::file(&file))?;
-            }
+        if let Some(file) = &out {
+            std::fs::write(file, &text).map_err(CliError::file(file))?;
+        }
+        match (out, json) {
+            (None, false) => print_line(text.trim_end())?,
+            (None, true) => print_json(&Exported { text: Some(text), file: None })?,
+            (Some(_), false) => {}
+            (file, true) => print_json(&Exported { text: None, file })?,
         }
         Ok(Status::Success)
     }

@@ -3,6 +3,7 @@
 mod bench;
 mod check;
 mod config_options;
+mod connect;
 mod controller;
 mod engine;
 mod export;
@@ -28,7 +29,7 @@ use crate::status::Status;
 pub(crate) struct Halfstep {
     #[command(subcommand)]
     command: HalfstepCommand,
-    /// Print results as JSON on stdout
+    /// Print results as JSON on stdout, and errors as {"error": …}, too
     #[arg(long, global = true)]
     json: bool,
 }
@@ -51,6 +52,11 @@ enum HalfstepCommand {
 }
 
 impl Halfstep {
+    /// Whether results are to be printed as JSON.
+    pub(crate) fn prints_json(&self) -> bool {
+        self.json
+    }
+
     /// Runs the command.
     ///
     /// # Errors
@@ -67,7 +73,7 @@ impl Halfstep {
             HalfstepCommand::Paper(args) => args.run(json),
             HalfstepCommand::Check(args) => args.run(json),
             HalfstepCommand::Bench(args) => args.run(json),
-            HalfstepCommand::Export(args) => args.run(),
+            HalfstepCommand::Export(args) => args.run(json),
             HalfstepCommand::Import(args) => args.run(json),
             HalfstepCommand::Plot(args) => args.run(json),
             HalfstepCommand::Replay(args) => args.run(json),

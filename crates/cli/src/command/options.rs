@@ -1,10 +1,12 @@
 //! Options that several commands have in common.
 
-use std::path::PathBuf;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
 use interface::COMMAND_TIMEOUT_MAX;
+use node::announcements::Announced;
 use node::cycle::Clock;
 use runtime::Rate;
 use wire::{Instance, InstanceName};
@@ -34,7 +36,7 @@ impl InstanceOption {
 #[derive(Clone, Debug, Args)]
 pub(super) struct LoopOptions {
     /// End after this time, e.g. 20s or 2min [default: run until Ctrl-C]
-    #[arg(long = "for", value_name = "DURATION", value_parser = duration)]
+    #[arg(long = "for", value_name = "DURATION", value_parser = duration, allow_hyphen_values = true)]
     pub duration: Option<Duration>,
     /// Run in lockstep with the other process, deterministic and as fast as possible, instead of in real time
     #[arg(long)]
@@ -79,6 +81,11 @@ pub(super) struct ChildOptions {
 }
 
 impl ChildOptions {
+    /// What the process tells while it runs: `walk` shows the modes itself.
+    pub(super) fn announced(&self) -> Announced {
+        if self.parent.is_some() { Announced::Faults } else { Announced::All }
+    }
+
     pub(super) fn bind(&self) -> Result<(), CliError> {
         self.parent.map_or(Ok(()), end_with_parent)
     }
@@ -97,6 +104,22 @@ pub(super) fn command_timeout(text: &str) -> Result<Duration, String> {
 }
 
 pub(super) fn duration(text: &str) -> Result<Duration, String> {
+    if text.starts_with('-') {
+        return Err("must not be negative; write e.g. 20s or 2min".to_owned());
+    }
     let duration = humantime::parse_duration(text).map_err(|error| format!("{error}; write e.g. 20s or 2min"))?;
     if duration < DURATION_MIN { Err("must be at least 1ms".to_owned()) } else { Ok(duration) }
+}
+
+/// A number as people write it.
+pub(super) fn number(text: &str) -> Result<f64, String> {
+    text.parse().map_err(|_| "must be a number, e.g. 10 or -2.5".to_owned())
+}
+
+/// An option of a path as one word for another process: a path may begin with a hyphen.
+pub(super) fn path_option(option: &str, path: &Path) -> OsString {
+    let mut word = OsString::from(option);
+    word.push("=");
+    word.push(path);
+    word
 }

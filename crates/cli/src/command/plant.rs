@@ -5,12 +5,14 @@ use std::path::{Path, PathBuf};
 
 use gait::{Robot, Start, Walk};
 use model::Motion;
+use node::announcements::Announced;
 use node::configuration::{ConfigFiles, Errors, PLANT};
 use node::cycle::Cycles;
 use node::engine::{self, EngineSetup, ExternalEngine};
 use node::interrupt::Interrupt;
 use node::plant_loop::run_plant;
 use node::summary::PlantSummary;
+use node::tell::tell;
 use node::{realtime, recorder};
 use pattern::PatternGenerator;
 use record::{Metadata, Provenance};
@@ -79,13 +81,17 @@ impl PlantArgs {
         let clock = self.runs.clock();
         let to = self.recorded(&files, realtime.rate, robot.mechanism.fingerprint)?;
         realtime.keep_off_the_loop(clock);
-        let (mut recorder, recorder_thread) = recorder::of_plant(clock, realtime.rate, to)?;
+        let (mut recorder, recorder_thread) = recorder::of_plant(clock, realtime.rate, to, self.child.announced())?;
         let ticks = self.runs.ticks(realtime.rate);
         let mut cycles = Cycles::new(realtime.timing(clock), setpoints, "controller", ticks, interrupt);
 
         // Last: other threads must not be pinned to the loop's core. With an external engine the loop is not pinned, so
         // that the engine need not wait for a core that the loop never leaves.
-        let _granted = outside.is_none().then(|| realtime::enter(&realtime.plant, clock, "plant"));
+        let file = self.config.realtime_file();
+        let _granted = outside.is_none().then(|| realtime::enter(&realtime.plant, clock, "plant", &file));
+        if self.child.announced() == Announced::All {
+            tell(format_args!("plant: waits for the controller on instance `{}`", self.instance.instance));
+        }
         let step = |plant: &mut plant::Plant, setpoint: &Setpoint| match &mut outside {
             None => Ok(plant.step(setpoint)),
             Some(engine) => engine.step(plant, setpoint),

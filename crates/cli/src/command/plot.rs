@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 use config::Config;
 use model::Mechanism;
 use node::configuration::MECHANISM;
+use node::tell::tell;
 use plots::picture;
 use plots::run_log::{RunLog, write_csv};
 use record::provenance_of;
 use serde::Serialize;
 
 use crate::error::CliError;
-use crate::output::{print, tell, write_files};
+use crate::output::{print, write_files};
 use crate::status::Status;
 
 /// Draw the plots of a recorded run

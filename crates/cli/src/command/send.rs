@@ -8,9 +8,11 @@ use std::time::Duration;
 
 use clap::Subcommand;
 use operator::reply_text::{ReplyJson, reply_text};
+use runtime::now_ns;
 use wire::OperatorPorts;
 
-use super::options::{InstanceOption, command_timeout};
+use super::connect::patiently;
+use super::options::{InstanceOption, command_timeout, number};
 use crate::error::CliError;
 use crate::output::{print_json, print_line};
 use crate::status::Status;
@@ -22,7 +24,8 @@ pub(super) struct SendArgs {
     instance: InstanceOption,
     /// Hold control authority for this long, e.g. 5s: lower-priority sources are refused, and the robot stops when it
     /// expires unless another request has arrived [default: the request stays in effect until replaced]
-    #[arg(long = "for", value_name = "DURATION", value_parser = command_timeout, global = true)]
+    #[arg(long = "for", value_name = "DURATION", value_parser = command_timeout, global = true,
+        allow_hyphen_values = true)]
     duration: Option<Duration>,
     #[command(subcommand)]
     request: RequestKind,
@@ -34,18 +37,21 @@ enum RequestKind {
     #[command(allow_negative_numbers = true)]
     Turn {
         /// Degrees, positive to the left
+        #[arg(value_parser = number)]
         degrees: f64,
     },
     /// Set the speed as a multiple of the nominal speed
     #[command(allow_negative_numbers = true)]
     Speed {
         /// 1 is the nominal speed
+        #[arg(value_parser = number)]
         factor: f64,
     },
     /// Set the step extension
     #[command(allow_negative_numbers = true)]
     Extend {
         /// Degrees at the hips, negative for shorter steps
+        #[arg(value_parser = number)]
         degrees: f64,
     },
     /// Start walking, or walk on
@@ -60,8 +66,10 @@ enum RequestKind {
     Reset,
 }
 
-/// How long the controller may take to reply.
-const REPLY_TIMEOUT: Duration = Duration::from_secs(2);
+/// How long the controller may take to begin with the request: then it expires.
+const EXPIRY: Duration = Duration::from_secs(2);
+/// How long the controller may take to reply: longer, so that no request is carried out that was told to have failed.
+const REPLY_TIMEOUT: Duration = Duration::from_millis(2500);
 
 impl SendArgs {
     pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
@@ -73,7 +81,9 @@ impl SendArgs {
                 ..self.request.message()
             },
         };
-        let operator = OperatorPorts::connect(&self.instance.instance()?)?;
+        let instance = self.instance.instance()?;
+        let operator = patiently(&instance, || OperatorPorts::connect(&instance))?;
+        let request = Request { expires_ns: Some(now_ns() + EXPIRY.as_nanos() as u64), ..request };
         let reply = operator.requests.ask(&(&request).into(), REPLY_TIMEOUT)?.checked().map_err(CliError::new)?;
         if json {
             print_json(&ReplyJson::from(&reply))?;

@@ -3,6 +3,7 @@
 use interface::{Intent, Reason, Request, Source, Verdict};
 use std::ffi::OsString;
 use std::fs;
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -11,6 +12,7 @@ use node::configuration::Errors;
 use node::engine;
 use node::interrupt::Interrupt;
 use node::summary::{ControllerSummary, PlantSummary};
+use node::tell::tell;
 use operator::reply_text::reply_text;
 use operator::script::{Reader, ScriptError, TimedRequest};
 use operator::script_runner::ScriptRunner;
@@ -22,9 +24,9 @@ use wire::{ConnectError, Instance, InstanceName, Leftovers, ObserverPorts, Opera
 
 use super::config_options::ConfigOptions;
 use super::engine::Engine;
-use super::options::LoopOptions;
+use super::options::{LoopOptions, path_option};
 use crate::error::CliError;
-use crate::output::{print, print_line, tell, write_files};
+use crate::output::{print, print_line, write_files};
 use crate::process::Process;
 use crate::progress::Progress;
 use crate::status::Status;
@@ -106,6 +108,9 @@ impl WalkArgs {
         let folder = self.folder()?;
 
         let mut walking = self.start(&instance, &folder, &steps, rate)?;
+        if self.instance.is_none() {
+            tell(format_args!("walks as instance `{}`: halfstep send --instance {0} stop", instance.name()));
+        }
         walking.watch(Progress::new(self.runs.ticks(rate), rate), &interrupt, rate)?;
         let (controller, plant) = walking.finish()?;
 
@@ -114,17 +119,18 @@ impl WalkArgs {
         if !json && summary.problems.is_empty() {
             print_line(format_args!("run.mcap, summary.json and pictures are in {}", folder.display()))?;
         }
-        Ok(Status::success_if(summary.measures.falls == 0 && summary.problems.is_empty()))
+        let walked = summary.measures.falls == 0 && summary.fault.is_none();
+        Ok(Status::success_if(walked && summary.problems.is_empty()))
     }
 
     /// The requests of the script that are due before the walk ends.
     fn steps(&self, rate: Rate, errors: &mut Errors) -> Option<Vec<TimedRequest>> {
         let steps = match &self.commands {
-            None => Reader::read_all("built-in commands", DEMO),
+            None => Reader::read_all("built-in commands", DEMO.as_bytes()),
             Some(file) => {
                 let name = file.display().to_string();
-                let text = errors.note(config::bounded_text(file).map_err(|error| format!("{name}: {error}")))?;
-                Reader::read_all(name, &text)
+                let input = errors.note(fs::File::open(file).map_err(|error| format!("{name}: {error}")))?;
+                Reader::read_all(name, BufReader::new(input))
             }
         };
         let is_reached = |step: &TimedRequest| self.runs.ticks(rate).is_none_or(|ticks| step.tick(rate) < ticks);
@@ -182,7 +188,7 @@ impl WalkArgs {
         of_plant.extend(["--end-when-fallen".into(), "--seed".into(), self.seed.to_string().into()]);
         of_plant.extend(["--engine".into(), self.plant.name().into()]);
         if let Some(file) = &self.disturbances {
-            of_plant.extend(["--disturbances".into(), file.into()]);
+            of_plant.push(path_option("--disturbances", file));
         }
         let plant = Process::start("plant", of_plant)?;
         Ok(Walking { controller, plant, script, observer, _leftovers: leftovers })
@@ -191,7 +197,7 @@ impl WalkArgs {
     /// Arguments of both processes.
     fn arguments(&self, instance: &Instance, folder: &Path) -> Vec<OsString> {
         let mut arguments = self.config.arguments();
-        arguments.extend(["--instance".into(), instance.name().as_str().into(), "--out".into(), folder.into()]);
+        arguments.extend([format!("--instance={}", instance.name()).into(), path_option("--out", folder)]);
         if let Some(duration) = self.runs.duration {
             arguments.extend(["--for".into(), humantime::format_duration(duration).to_string().into()]);
         }
@@ -234,11 +240,15 @@ impl WalkArgs {
         let duration_s = rate.time(plant.ticks);
         let mut summary = WalkSummary {
             measures: log.measures(&robot.mechanism),
+            mode: controller.mode.clone(),
+            // The plant may end first: that nothing is measured then is no fault.
+            fault: controller.fault.clone().filter(|fault| fault.time_s <= duration_s),
             requests: controller.requests,
             duration_s,
             seed: self.seed,
             plant: self.plant.name(),
             instance: instance.name().to_string(),
+            folder: folder.to_owned(),
             clock: self.runs.clock().text(),
             deadline_misses: controller.deadline_misses + plant.deadline_misses,
             timing: controller.timing,

@@ -1,7 +1,7 @@
 //! Joint angles against their setpoints and against their rates.
 
 use interface::{Fault, Measurement, Rejection, Sensor, Setpoint};
-use model::{Joint, JointVector, PerJoint};
+use model::{Joint, JointVector};
 
 use super::ConsistencyParameters;
 

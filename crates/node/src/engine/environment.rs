@@ -11,6 +11,8 @@ use std::time::Duration;
 
 use indicatif::ProgressBar;
 
+use crate::tell::tell;
+
 const REQUIREMENTS: &str = include_str!("../../../../tools/mujoco_plant/requirements.txt");
 const PLANT: &str = include_str!("../../../../tools/mujoco_plant/plant.py");
 /// Name of the file that exists once the environment is complete.
@@ -77,7 +79,7 @@ fn folder() -> Result<PathBuf, EnvironmentError> {
 /// Creates the environment.
 fn install(folder: &Path, python: &Path) -> Result<(), EnvironmentError> {
     let system = system_python()?;
-    eprintln!("MuJoCo's first use: making a Python environment in {}", folder.display());
+    tell(format_args!("MuJoCo's first use: making a Python environment in {}", folder.display()));
     let packages: Vec<_> = REQUIREMENTS.split_whitespace().collect();
     let bar = ProgressBar::new_spinner();
     bar.enable_steady_tick(Duration::from_millis(100));
@@ -106,7 +108,7 @@ fn install(folder: &Path, python: &Path) -> Result<(), EnvironmentError> {
             packages.join(" ")
         )));
     }
-    eprintln!("installed {}", packages.join(" and "));
+    tell(format_args!("installed {}", packages.join(" and ")));
     Ok(())
 }
 

@@ -19,7 +19,8 @@ pub struct Measures {
     /// Change of heading (deg), positive to the left, full circles included. The walk's heading is the mean of two
     /// consecutive footprints', so that a half-finished turn counts half.
     pub heading_deg: f64,
-    /// Least margin of the measured ZMP (mm); `None` if it was never measured.
+    /// Least margin of the measured ZMP (mm) away from support changes, at which it moves from foot to foot; `None` if it
+    /// was never measured.
     pub min_margin_mm: Option<f64>,
     /// Number of falls.
     pub falls: usize,
@@ -33,7 +34,8 @@ impl RunLog {
     pub fn measures(&self, mechanism: &Mechanism) -> Measures {
         let prints = self.footprints(mechanism);
         let done = self.controller.first().zip(self.controller.last());
-        let margins = self.controller.iter().filter_map(|row| row.margin).filter(|margin| margin.is_finite());
+        let rows = self.controller.iter().filter(|row| row.is_off_support_changes());
+        let margins = rows.filter_map(|row| row.margin).filter(|margin| margin.is_finite());
         Measures {
             half_steps: done.map_or(0, |(first, last)| last.half_step.saturating_sub(first.half_step)),
             distance_m: distance(&prints),
@@ -83,6 +85,16 @@ mod tests {
         assert_eq!((measures.half_steps, measures.falls), (8, 0));
         assert!(measures.heading_deg.abs() < 1e-12);
         assert!(measures.min_margin_mm.is_some_and(|margin| (margin - 20.0).abs() < 1e-12));
+    }
+
+    #[test]
+    fn a_margin_at_a_support_change_does_not_count() {
+        let mut log = log(3, 0.0);
+        let change = log.controller.iter_mut().find(|row| !row.is_off_support_changes()).unwrap();
+        change.margin = Some(-0.001);
+        let off = log.controller.iter_mut().find(|row| row.is_off_support_changes()).unwrap();
+        off.margin = Some(0.012);
+        assert!(log.measures(&mechanism()).min_margin_mm.is_some_and(|margin| (margin - 12.0).abs() < 1e-12));
     }
 
     #[test]

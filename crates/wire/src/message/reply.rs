@@ -1,7 +1,7 @@
 //! Reply, controller → operator: what became of a request, and why.
 
 use iceoryx2::prelude::ZeroCopySend;
-use interface::{ActiveLimit, Command, ControlAuthority, Intent, Reply};
+use interface::{ActiveLimit, Command, ControlAuthority, Intent, LatchedFault, Mode, Rejection, Reply, Sensor};
 use model::Joint;
 
 use super::MessageFault;
@@ -9,9 +9,11 @@ use super::fault::Check;
 
 /// A [`Reply`] as it lies in shared memory.
 #[derive(Clone, Copy, Debug, PartialEq, ZeroCopySend)]
-#[type_name("halfstep.Reply.v2")]
+#[type_name("halfstep.Reply.v3")]
 #[repr(C)]
 pub struct ReplyMessage {
+    /// The request's `id`.
+    pub id: u64,
     /// A [`Verdict`](interface::Verdict).
     pub verdict: u32,
     /// A [`Reason`](interface::Reason).
@@ -27,7 +29,9 @@ pub struct ReplyMessage {
     /// The [`Intent`] then, 0 if there is none.
     pub intent: u32,
     /// Which of the following are known: [`BOUND`](Self::BOUND) is `joint`, `value` and `limit`,
-    /// [`IN_COMMAND`](Self::IN_COMMAND) is `source` and `remaining`, [`MARGIN`](Self::MARGIN) is `predicted_margin`.
+    /// [`IN_COMMAND`](Self::IN_COMMAND) is `source` and `remaining`, [`MARGIN`](Self::MARGIN) is `predicted_margin`,
+    /// [`FAULT`](Self::FAULT) is `fault` and `fault_time`, [`MODE`](Self::MODE) is `mode`, [`CAUSE`](Self::CAUSE) is
+    /// `cause` and `sensor`.
     pub known: u32,
     /// The joint whose limit is active, by the paper's number, 1 to 20; 0 if it is no joint's.
     pub joint: u32,
@@ -41,6 +45,16 @@ pub struct ReplyMessage {
     pub remaining: f64,
     /// Least predicted distance of the ZMP to the edge of the support polygon for what was granted (m).
     pub predicted_margin: f64,
+    /// What the controller is doing: a [`Mode`](interface::Mode).
+    pub mode: u32,
+    /// The [`Fault`](interface::Fault) that is latched.
+    pub fault: u32,
+    /// When it was latched: time of the controller since its first tick (s).
+    pub fault_time: f64,
+    /// Why measurements were not used then: a [`Fault`](interface::Fault).
+    pub cause: u32,
+    /// The [`Sensor`](interface::Sensor) that it names.
+    pub sensor: u32,
 }
 
 impl ReplyMessage {
@@ -50,14 +64,29 @@ impl ReplyMessage {
     pub const IN_COMMAND: u32 = 2;
     /// In `known`: `predicted_margin`.
     pub const MARGIN: u32 = 4;
+    /// In `known`: `fault` and `fault_time`.
+    pub const FAULT: u32 = 8;
+    /// In `known`: `mode`.
+    pub const MODE: u32 = 16;
+    /// In `known`: `cause` and `sensor`.
+    pub const CAUSE: u32 = 32;
 
     /// The reply, if its codes are known and every number that is known is finite.
     pub fn checked(&self) -> Result<Reply, MessageFault> {
         let check = Check("reply");
-        const ALL: u32 = ReplyMessage::BOUND | ReplyMessage::IN_COMMAND | ReplyMessage::MARGIN;
+        const ALL: u32 = ReplyMessage::BOUND
+            | ReplyMessage::IN_COMMAND
+            | ReplyMessage::MARGIN
+            | ReplyMessage::FAULT
+            | ReplyMessage::MODE
+            | ReplyMessage::CAUSE;
         let unknown = |field, value, known| MessageFault::UnknownCode { message: check.0, field, value, known };
         if self.known & !ALL != 0 {
-            return Err(unknown("known", self.known, "sums of 1 (bound), 2 (in command) and 4 (margin)"));
+            return Err(unknown(
+                "known",
+                self.known,
+                "sums of 1 (bound), 2 (in command), 4 (margin), 8 (fault), 16 (mode) and 32 (cause)",
+            ));
         }
         let knows = |bit| self.known & bit != 0;
         let joint = || match u8::try_from(self.joint).ok().map(|number| (number, Joint::from_number(number))) {
@@ -74,7 +103,19 @@ impl ReplyMessage {
             Ok(ControlAuthority { source: check.code("source", self.source)?, remaining })
         };
         let margin = || check.number("predicted_margin", self.predicted_margin);
+        let cause = || {
+            let known = "256 × kind + number of the joint or foot";
+            let sensor = Sensor::from_code(self.sensor).ok_or_else(|| unknown("sensor", self.sensor, known))?;
+            Ok(Rejection { fault: check.code("cause", self.cause)?, sensor })
+        };
+        let latched = || {
+            let time = check.number("fault_time", self.fault_time)?;
+            let cause = if knows(Self::CAUSE) { Some(cause()?) } else { None };
+            Ok(LatchedFault { fault: check.code("fault", self.fault)?, time, cause })
+        };
+        let mode = || check.code("mode", self.mode);
         Ok(Reply {
+            id: self.id,
             verdict: check.code("verdict", self.verdict)?,
             reason: check.code("reason", self.reason)?,
             effect_half_step: self.effect_half_step,
@@ -87,15 +128,19 @@ impl ReplyMessage {
             active_limit: knows(Self::BOUND).then(active_limit).transpose()?,
             authority: knows(Self::IN_COMMAND).then(authority).transpose()?,
             predicted_margin: knows(Self::MARGIN).then(margin).transpose()?,
+            mode: knows(Self::MODE).then(mode).transpose()?,
+            latched: knows(Self::FAULT).then(latched).transpose()?,
         })
     }
 }
 
 impl From<&Reply> for ReplyMessage {
     fn from(reply: &Reply) -> Self {
-        let Reply { active_limit, authority, predicted_margin, .. } = reply;
+        let Reply { active_limit, authority, predicted_margin, mode, latched, .. } = reply;
+        let cause = latched.and_then(|latched| latched.cause);
         let bit = |present: bool, bit: u32| if present { bit } else { 0 };
         Self {
+            id: reply.id,
             verdict: reply.verdict.code(),
             reason: reply.reason.code(),
             effect_half_step: reply.effect_half_step,
@@ -105,20 +150,28 @@ impl From<&Reply> for ReplyMessage {
             intent: reply.intent.map_or(0, Intent::code),
             known: bit(active_limit.is_some(), Self::BOUND)
                 | bit(authority.is_some(), Self::IN_COMMAND)
-                | bit(predicted_margin.is_some(), Self::MARGIN),
+                | bit(predicted_margin.is_some(), Self::MARGIN)
+                | bit(latched.is_some(), Self::FAULT)
+                | bit(mode.is_some(), Self::MODE)
+                | bit(cause.is_some(), Self::CAUSE),
             joint: active_limit.and_then(|limit| limit.joint).map_or(0, |joint| joint.number().into()),
             source: authority.map_or(0, |authority| authority.source.code()),
             value: active_limit.map_or(0.0, |limit| limit.value),
             limit: active_limit.map_or(0.0, |limit| limit.limit),
             remaining: authority.map_or(0.0, |authority| authority.remaining),
             predicted_margin: predicted_margin.unwrap_or(0.0),
+            mode: mode.map_or(0, Mode::code),
+            fault: latched.map_or(0, |latched| latched.fault.code()),
+            fault_time: latched.map_or(0.0, |latched| latched.time),
+            cause: cause.map_or(0, |cause| cause.fault.code()),
+            sensor: cause.map_or(0, |cause| cause.sensor.code()),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use interface::{Reason, Source, Verdict};
+    use interface::{Fault, Reason, Source, Verdict};
 
     use super::*;
 
@@ -129,6 +182,8 @@ mod tests {
         let plain = Reply::refused(Reason::CannotRestart, 12, GRANTED, None);
         let rate = ActiveLimit { joint: Some(Joint::RightKnee), value: 14.0, limit: 12.0 };
         let authority = ControlAuthority { source: Source::Console, remaining: 0.25 };
+        let cause = Some(Rejection { fault: Fault::JointOffSetpoint, sensor: Sensor::JointAngle(Joint::LeftKnee) });
+        let latched = LatchedFault { fault: Fault::MeasurementStale, time: 3.3, cause };
         for reply in [
             plain,
             Reply { intent: Some(Intent::Hold), ..plain },
@@ -136,6 +191,7 @@ mod tests {
             Reply { verdict: Verdict::Limited, reason: Reason::JointRate, active_limit: Some(rate), ..plain },
             Reply { reason: Reason::Margin, active_limit: Some(ActiveLimit { joint: None, ..rate }), ..plain },
             Reply { reason: Reason::Outranked, authority: Some(authority), ..plain },
+            Reply { id: 9, reason: Reason::Faulted, mode: Some(Mode::Faulted), latched: Some(latched), ..plain },
         ] {
             assert_eq!(ReplyMessage::from(&reply).checked(), Ok(reply));
         }
@@ -158,12 +214,15 @@ mod tests {
         assert!(text(ReplyMessage { source: 4, ..full }).starts_with("reply: source is 4; known are 0 (console)"));
         assert_eq!(text(ReplyMessage { remaining: -1.0, ..full }), "reply: remaining is -1; it must be at least 0");
         assert!(text(ReplyMessage { predicted_margin: f64::INFINITY, ..full }).starts_with("reply: predicted_margin"));
-        assert!(text(ReplyMessage { known: 8, ..full }).starts_with("reply: known is 8; known are sums of 1 (bound)"));
+        assert!(
+            text(ReplyMessage { known: 32, ..full }).starts_with("reply: known is 32; known are sums of 1 (bound)")
+        );
     }
 
     #[test]
     fn zeroed_memory_is_not_a_reply() {
         let zero = ReplyMessage {
+            id: 0,
             verdict: 0,
             reason: 0,
             effect_half_step: 0,
@@ -178,6 +237,9 @@ mod tests {
             limit: 0.0,
             remaining: 0.0,
             predicted_margin: 0.0,
+            mode: 0,
+            fault: 0,
+            fault_time: 0.0,
         };
         assert!(zero.checked().unwrap_err().to_string().starts_with("reply: verdict is 0; known are 1 (accepted)"));
     }

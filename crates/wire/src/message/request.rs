@@ -8,7 +8,7 @@ use super::fault::Check;
 
 /// A [`Request`] as it lies in shared memory.
 #[derive(Clone, Copy, Debug, PartialEq, ZeroCopySend)]
-#[type_name("halfstep.Request.v2")]
+#[type_name("halfstep.Request.v3")]
 #[repr(C)]
 pub struct RequestMessage {
     /// The controller's tick before which it must not take effect; 0 is at once.
@@ -30,6 +30,10 @@ pub struct RequestMessage {
     pub extension: f64,
     /// Command timeout of a streamed request (s), 0 for the controller's own.
     pub age_limit: f64,
+    /// A number of the sender's choice, which the reply repeats.
+    pub id: u64,
+    /// When it expires, by `CLOCK_MONOTONIC` (ns); 0 is never.
+    pub expires_ns: u64,
 }
 
 impl RequestMessage {
@@ -70,6 +74,8 @@ impl RequestMessage {
             },
             lifetime,
             timeout: timeout.filter(|&timeout| timeout > 0.0),
+            id: self.id,
+            expires_ns: (self.expires_ns != 0).then_some(self.expires_ns),
         })
     }
 }
@@ -91,6 +97,8 @@ impl From<&Request> for RequestMessage {
             speed: speed.unwrap_or(0.0),
             extension: extension.unwrap_or(0.0),
             age_limit: request.timeout.unwrap_or(0.0),
+            id: request.id,
+            expires_ns: request.expires_ns.unwrap_or(0),
         }
     }
 }
@@ -108,6 +116,12 @@ mod tests {
         let mut message = RequestMessage::from(&request);
         message.speed = f64::NAN;
         assert_eq!(message.checked(), Ok(request));
+    }
+
+    #[test]
+    fn id_and_expiry_survive_the_message() {
+        let request = Request { id: 7, expires_ns: Some(12), ..Request::new(Source::Program) };
+        assert_eq!(RequestMessage::from(&request).checked(), Ok(request));
     }
 
     #[test]

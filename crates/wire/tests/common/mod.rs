@@ -72,6 +72,8 @@ pub(crate) fn request(turn: f64) -> RequestMessage {
         speed: 0.0,
         extension: 0.0,
         age_limit: 0.0,
+        id: 0,
+        expires_ns: 0,
     }
 }
 
