@@ -14,7 +14,7 @@ fn broken() -> Vec<u8> {
 }
 
 const COMPLAINTS: [&str; 3] = [
-    ":3: not UTF-8 (byte 29 of the line); write e.g. {",
+    ":3: not UTF-8 (byte 30 of the line); write e.g. {",
     ":4: longer than 65536 bytes; write",
     ":5: not a JSON object",
 ];

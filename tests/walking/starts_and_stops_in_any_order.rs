@@ -51,7 +51,8 @@ fn slammed(random: &mut StdRng, limits: &Limits) -> Request {
 fn slammed_commands_lead_to_no_fall_and_no_stuck_mode() {
     let limits = controller_parameters().gait.limits;
     for seed in 1..7 {
-        let (mut walking, mut random) = (Walking::begin(seed), random(seed));
+        let mut walking = Walking::begin(seed);
+        let mut random = random(seed);
         while walking.time() < 24.0 {
             let request = slammed(&mut random, &limits);
             let mut report = walking.tick_with(Some(&request).filter(|request| !request.is_empty()));

@@ -1,7 +1,7 @@
 //! The summary of a walk, with both processes together.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::Path;
 
 use node::request_queue::Tally;
 use node::summary::{FaultSummary, counted};
@@ -30,8 +30,6 @@ pub(crate) struct WalkSummary {
     pub plant: &'static str,
     /// Name of the instance.
     pub instance: String,
-    /// Folder of recording, summary and pictures.
-    pub folder: PathBuf,
     /// The clock: `realtime` or `lockstep`.
     pub clock: &'static str,
     /// Deadlines missed by controller and plant.
@@ -46,6 +44,23 @@ pub(crate) struct WalkSummary {
     pub problems: Vec<String>,
     /// Simulated time over wall-clock time.
     pub real_time_factor: f64,
+}
+
+/// A summary with the folder that holds it, as it is printed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct SummaryInFolder<'a> {
+    /// Folder of recording, summary and pictures.
+    pub folder: &'a Path,
+    /// The summary.
+    #[serde(flatten)]
+    pub summary: &'a WalkSummary,
+}
+
+impl fmt::Display for SummaryInFolder<'_> {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        let Self { folder, summary } = self;
+        write!(out, "{summary}\nrun.mcap, summary.json and pictures are in {}", folder.display())
+    }
 }
 
 impl fmt::Display for WalkSummary {

@@ -26,11 +26,11 @@ use super::config_options::ConfigOptions;
 use super::engine::Engine;
 use super::options::{LoopOptions, path_option};
 use crate::error::CliError;
-use crate::output::{print, print_line, write_files};
+use crate::output::{print, write_files};
 use crate::process::Process;
 use crate::progress::Progress;
 use crate::status::Status;
-use crate::walk_summary::WalkSummary;
+use crate::walk_summary::{SummaryInFolder, WalkSummary};
 
 /// Walk: run controller and plant, send commands from a script, record the run and plot it
 #[derive(Clone, Debug, clap::Args)]
@@ -115,10 +115,7 @@ impl WalkArgs {
         let (controller, plant) = walking.finish()?;
 
         let summary = self.conclude(&robot, rate, &instance, &folder, &controller, &plant)?;
-        print(json, &summary)?;
-        if !json && summary.problems.is_empty() {
-            print_line(format_args!("run.mcap, summary.json and pictures are in {}", folder.display()))?;
-        }
+        print(json, &SummaryInFolder { folder: &folder, summary: &summary })?;
         let walked = summary.measures.falls == 0 && summary.fault.is_none();
         Ok(Status::success_if(walked && summary.problems.is_empty()))
     }
@@ -248,7 +245,6 @@ impl WalkArgs {
             seed: self.seed,
             plant: self.plant.name(),
             instance: instance.name().to_string(),
-            folder: folder.to_owned(),
             clock: self.runs.clock().text(),
             deadline_misses: controller.deadline_misses + plant.deadline_misses,
             timing: controller.timing,

@@ -211,7 +211,7 @@ mod tests {
         assert_eq!(text(ReplyMessage { value: f64::NAN, ..full }), "reply: value is NaN; it must be finite");
         assert_eq!(text(ReplyMessage { joint: 21, ..full }), "reply: joint is 21; known are 0 (none) and 1 to 20");
         assert_eq!(text(ReplyMessage { joint: 257, ..full }), "reply: joint is 257; known are 0 (none) and 1 to 20");
-        assert!(text(ReplyMessage { source: 4, ..full }).starts_with("reply: source is 4; known are 0 (console)"));
+        assert!(text(ReplyMessage { source: 9, ..full }).starts_with("reply: source is 9; known are 0 (console)"));
         assert_eq!(text(ReplyMessage { remaining: -1.0, ..full }), "reply: remaining is -1; it must be at least 0");
         assert!(text(ReplyMessage { predicted_margin: f64::INFINITY, ..full }).starts_with("reply: predicted_margin"));
         assert!(
