@@ -1,5 +1,5 @@
-//! A line that is no text, or has no end, is refused with its number; all others are heard. The file of a walk is refused
-//! as a whole, with each such line.
+//! A line that is no text, or has no end, is refused with its number; all others are heard. The file of a walk is
+//! refused as a whole, with each such line.
 
 use std::io::Write;
 

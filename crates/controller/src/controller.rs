@@ -89,7 +89,8 @@ impl Controller {
     ) -> Result<Self, WalkError> {
         let walk = Walk::new(table, mechanism, &parameters.gait, start)?;
         let pattern = Pattern::new(mechanism, walk.clone(), parameters.compensation);
-        Ok(Self::with_pattern(mechanism, parameters, &walk, pattern, Intent::Walk))
+        let rest = Box::new(PatternGenerator::standing(mechanism, walk.clone()));
+        Ok(Self::with_pattern(mechanism, parameters, &walk, pattern, rest, Intent::Walk))
     }
 
     /// A controller of a robot that stands with its feet side by side and walks when requested to. Its gait is planned,
@@ -104,15 +105,19 @@ impl Controller {
         start: Start,
     ) -> Result<Self, WalkError> {
         let walk = Walk::new(table, mechanism, &parameters.gait, start)?;
-        let pattern = Pattern::Planned(Box::new(PatternGenerator::standing(mechanism, walk.clone())));
-        Ok(Self::with_pattern(mechanism, parameters, &walk, pattern, Intent::Stop))
+        let rest = Box::new(PatternGenerator::standing(mechanism, walk.clone()));
+        let pattern = Pattern::Planned(rest.clone());
+        Ok(Self::with_pattern(mechanism, parameters, &walk, pattern, rest, Intent::Stop))
     }
 
+    // It needs a large part of a thread's stack: the patterns are made before, when that is free.
+    #[inline(never)]
     fn with_pattern(
         mechanism: &Mechanism,
         parameters: &Parameters,
         walk: &Walk,
         pattern: Pattern,
+        rest: Box<PatternGenerator>,
         intent: Intent,
     ) -> Self {
         let tree = Tree::new(mechanism);
@@ -120,7 +125,6 @@ impl Controller {
         let mut reference = ReferenceDynamics::new(mechanism, &tree, walk.mirror());
         reference.update(&tree, walk.mirror(), &gait.motion(), gait.in_double_support());
         let first = walk.mirror().to_physical(gait.half_step().support, &gait.motion().angles);
-        let rest = Box::new(PatternGenerator::standing(mechanism, walk.clone()));
         let check = FeasibilityCheck::new(mechanism, reference.clone(), parameters.feasibility);
         Self {
             state: OperatingState::new(intent),

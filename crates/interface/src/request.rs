@@ -63,8 +63,8 @@ impl Request {
     }
 
     /// Whether it has expired at a time of `CLOCK_MONOTONIC` (ns). A stop never does.
-    pub fn has_expired(&self, now_ns: u64) -> bool {
-        !self.is_stop() && self.expires_ns.is_some_and(|expires_ns| expires_ns < now_ns)
+    pub fn has_expired(&self, time_ns: u64) -> bool {
+        !self.is_stop() && self.expires_ns.is_some_and(|expires_ns| expires_ns < time_ns)
     }
 
     /// Whether it need not wait for the request that is under evaluation: a stop or a heartbeat.

@@ -29,8 +29,8 @@ pub struct ControllerRun {
     pub timing: TimingStats,
 }
 
-/// The request that the loop makes by itself after too many missed deadlines in a row. Its source is its own, so that it
-/// ends no operator's stream.
+/// The request that the loop makes by itself after too many missed deadlines in a row. Its source is its own, so that
+/// it ends no operator's stream.
 const HOLD: Request = Request { intent: Some(Intent::Hold), ..Request::new(Source::ControlLoop) };
 
 /// Runs until the cycles end. After `hold_after_misses` deadlines missed in a row the robot stops in stride; 0 is

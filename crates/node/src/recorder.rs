@@ -87,8 +87,8 @@ pub fn of_controller(
     open(clock, rate, to.map(|(folder, origin)| (folder, record::CONTROLLER_FILE, origin)), "controller", take)
 }
 
-/// Opens the plant's recorder. It tells when the controller begins and when the robot falls and, if `to` names a folder,
-/// writes each entry into the plant's recording there.
+/// Opens the plant's recorder. It tells when the controller begins and when the robot falls and, if `to` names a
+/// folder, writes each entry into the plant's recording there.
 ///
 /// # Errors
 /// The recording cannot be created, or the operating system refused a thread.

@@ -152,12 +152,12 @@ impl RequestQueue {
     /// Takes out the request that is due at a tick: a stop, else a heartbeat, else the one that has waited longest of
     /// those that have not expired.
     ///
-    /// * `now_ns` – the time of `CLOCK_MONOTONIC` (ns)
+    /// * `time_ns` – the time of `CLOCK_MONOTONIC` (ns)
     /// * `urgent_only` – only a stop or a heartbeat
     pub fn due(
         &mut self,
         tick: u64,
-        now_ns: u64,
+        time_ns: u64,
         urgent_only: bool,
         recorder: &mut Recorder<ControllerEvent>,
     ) -> Option<DueRequest> {
@@ -165,7 +165,7 @@ impl RequestQueue {
         if let Some(stop) = self.due_stop(recorder) {
             return Some(stop);
         }
-        self.refuse_expired(now_ns, recorder);
+        self.refuse_expired(time_ns, recorder);
         let is_due = self.scheduled.first().is_some_and(|first| first.request.not_before <= tick);
         if !(self.took_heartbeat && is_due && !urgent_only)
             && let Some(heartbeat) = self.heartbeats.iter_mut().find_map(Option::take)
@@ -178,8 +178,8 @@ impl RequestQueue {
     }
 
     /// Refuses the requests that have expired before the first one that is due and has not.
-    fn refuse_expired(&mut self, now_ns: u64, recorder: &mut Recorder<ControllerEvent>) {
-        let is_expired = |due: &DueRequest| due.request.has_expired(now_ns);
+    fn refuse_expired(&mut self, time_ns: u64, recorder: &mut Recorder<ControllerEvent>) {
+        let is_expired = |due: &DueRequest| due.request.has_expired(time_ns);
         while self.scheduled.first().is_some_and(|first| first.request.not_before <= self.tick && is_expired(first)) {
             let expired = self.scheduled.remove(0);
             self.refuse(expired.id, expired.request.id, Reason::Expired, recorder);

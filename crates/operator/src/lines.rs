@@ -1,4 +1,4 @@
-//! Lines of an input that may be anything: bytes that are no UTF-8, lines without end.
+//! The lines of an input that may be anything: bytes that are no UTF-8, lines without end.
 
 use std::fmt;
 use std::io::{self, BufRead};
@@ -10,7 +10,7 @@ const BYTE_ORDER_MARK: char = '\u{feff}';
 
 /// Reads an input line by line, without the ends of the lines. A line that cannot be used does not end the input.
 #[derive(Debug)]
-pub struct Lines<R> {
+pub struct InputLines<R> {
     input: R,
     is_first: bool,
 }
@@ -27,7 +27,7 @@ pub enum BadLine {
     TooLong,
 }
 
-impl<R: BufRead> Lines<R> {
+impl<R: BufRead> InputLines<R> {
     /// The lines of an input.
     pub fn new(input: R) -> Self {
         Self { input, is_first: true }
@@ -57,7 +57,7 @@ impl<R: BufRead> Lines<R> {
     }
 }
 
-impl<R: BufRead> Iterator for Lines<R> {
+impl<R: BufRead> Iterator for InputLines<R> {
     /// A line, or what is wrong with it; an error if the input cannot be read.
     type Item = io::Result<Result<String, BadLine>>;
 
@@ -100,7 +100,7 @@ mod tests {
 
     fn lines(input: impl Read) -> Vec<Result<String, BadLine>> {
         // A small buffer, so that lines cross its end.
-        Lines::new(BufReader::with_capacity(7, input)).map(Result::unwrap).collect()
+        InputLines::new(BufReader::with_capacity(7, input)).map(Result::unwrap).collect()
     }
 
     #[test]
@@ -114,15 +114,15 @@ mod tests {
     #[test]
     fn a_line_without_end_is_refused_and_takes_no_memory() {
         let endless = io::repeat(b'a').take(50_000_000).chain(&b"\nnext\n"[..]);
-        let mut lines = Lines::new(BufReader::new(endless));
+        let mut lines = InputLines::new(BufReader::new(endless));
         let mut line = Vec::new();
         assert!(lines.read_bytes(&mut line).unwrap());
         assert_eq!(line.len(), LINE_MAX + 1);
         assert_eq!(lines.next().unwrap().unwrap().as_deref(), Ok("next"));
         let longest = format!("{}\n", "a".repeat(LINE_MAX - 1));
-        assert!(Lines::new(longest.as_bytes()).next().unwrap().unwrap().is_ok());
+        assert!(InputLines::new(longest.as_bytes()).next().unwrap().unwrap().is_ok());
         let longer = format!("a{longest}\n");
-        assert_eq!(Lines::new(longer.as_bytes()).next().unwrap().unwrap(), Err(BadLine::TooLong));
+        assert_eq!(InputLines::new(longer.as_bytes()).next().unwrap().unwrap(), Err(BadLine::TooLong));
     }
 
     #[test]

@@ -14,7 +14,7 @@ use interface::{GaitChange, Intent, Request, Source};
 use runtime::Rate;
 use serde::{Deserialize, Deserializer};
 
-use crate::lines::{BadLine, Lines};
+use crate::lines::{BadLine, InputLines};
 
 /// A line of a script: a request and its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,7 +96,7 @@ impl Reader {
     pub fn read_all(name: impl Into<String>, input: impl BufRead) -> Result<Vec<TimedRequest>, Vec<ScriptError>> {
         let mut reader = Self::new(name);
         let (mut steps, mut errors) = (Vec::new(), Vec::new());
-        for line in Lines::new(input) {
+        for line in InputLines::new(input) {
             let read = match line {
                 Ok(line) => reader.read(line.as_deref().map_err(|bad| *bad)),
                 Err(error) => {

@@ -14,8 +14,8 @@ const POLL_INTERVAL: Duration = Duration::from_millis(50);
 /// Connects, and waits two seconds for a controller to start.
 ///
 /// # Errors
-/// There is no controller: the error names the instances that have one, and nothing is left of this one. Or it cannot be
-/// connected to.
+/// There is no controller: the error names the instances that have one, and nothing is left of this one. Or it cannot
+/// be connected to.
 pub(super) fn patiently<T, E: Into<OperatorError>>(
     instance: &Instance,
     mut connect: impl FnMut() -> Result<T, E>,

@@ -10,7 +10,7 @@ use node::interrupt::Interrupt;
 use node::tell::tell;
 use operator::command_stream::{CommandStream, SentRequest};
 use operator::line_queue::{CAPACITY, LineQueue, ReadLine, Superseded};
-use operator::lines::{BadLine, Lines};
+use operator::lines::{BadLine, InputLines};
 use operator::reply_text::{ReplyJson, reply_text};
 use operator::script::{Reader, ScriptError};
 use runtime::now_ns;
@@ -28,9 +28,9 @@ use crate::status::Status;
 \"extension_deg\":0,\"intent\":\"stop\"}. t is the controller's time since the stream began, in seconds; without t the \
 line is sent at once. All other keys are optional. A wrong line is reported with its number, and the stream \
 continues.\n\n\
-Lines without t that arrive faster than they are answered are passed over for a newer one that sets the same keys: the \
-newest position of a stick counts. A stop overtakes everything, and takes the place of all lines before it that were \
-not sent, also of those that wait for their t.\n\n\
+InputLines without t that arrive faster than they are answered are passed over for a newer one that sets the same keys: \
+the newest position of a stick counts. A stop overtakes everything, and takes the place of all lines before it that \
+were not sent, also of those that wait for their t.\n\n\
 While the stream is open, also between two lines, it has control authority: sources of lower priority are refused. If \
 it is killed or interrupted, the robot stops after the command timeout. At the end of the input it releases control: \
 what it requested stays in force until another request changes it, unless --stop-at-end is given.")]
@@ -53,7 +53,7 @@ pub(super) struct StreamArgs {
 const POLL_INTERVAL: Duration = Duration::from_millis(1);
 /// Polls between two checks that the controller is still there, which cost more.
 const POLLS_PER_CHECK: u32 = 100;
-/// Lines that may wait between the thread that reads them and the one that sends them.
+/// InputLines that may wait between the thread that reads them and the one that sends them.
 const READ_AHEAD: usize = 256;
 /// Most timed lines that are sent and have no reply: a few, so that a dense script is not late.
 const TIMED_UNANSWERED: usize = 16;
@@ -301,8 +301,8 @@ impl Lags {
             let longest = Duration::from_nanos(self.longest_ns).as_secs_f64();
             let Self { passed_over, .. } = self;
             tell(format_args!(
-                "{passed_over} lines were passed over for newer ones; the longest time from reading a line to its reply \
-                 was {longest:.2} s"
+                "{passed_over} lines were passed over for newer ones; the longest time from reading a line to its \
+                 reply was {longest:.2} s"
             ));
         }
     }
@@ -312,7 +312,7 @@ impl Lags {
 fn read_lines(source: Box<dyn Read + Send>) -> Result<Receiver<ReadResult>, CliError> {
     let (sender, lines) = mpsc::sync_channel(READ_AHEAD);
     let read = move || {
-        for line in Lines::new(BufReader::new(source)) {
+        for line in InputLines::new(BufReader::new(source)) {
             let is_last = line.is_err();
             if sender.send(line).is_err() || is_last {
                 return;

@@ -19,8 +19,8 @@ pub struct Measures {
     /// Change of heading (deg), positive to the left, full circles included. The walk's heading is the mean of two
     /// consecutive footprints', so that a half-finished turn counts half.
     pub heading_deg: f64,
-    /// Least margin of the measured ZMP (mm) away from support changes, at which it moves from foot to foot; `None` if it
-    /// was never measured.
+    /// Least margin of the measured ZMP (mm) away from support changes, at which it moves from foot to foot; `None` if
+    /// it was never measured.
     pub min_margin_mm: Option<f64>,
     /// Number of falls.
     pub falls: usize,
