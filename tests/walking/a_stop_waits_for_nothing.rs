@@ -150,7 +150,8 @@ fn a_stop_of_a_faulted_robot_is_granted_to_everyone() {
     assert_eq!(robot.driver.controller.mode(), Mode::Faulted);
     let stop = Request { source: Source::Script, ..intent(Intent::Stop) };
     let reply = robot.driver.step(PERIOD, None, |_| Some(stop)).tick.reply.expect("it is decided at once");
-    assert_eq!(reply.verdict, Verdict::Accepted, "{reply:?}");
+    // It stands in stride and stays so until a reset.
+    assert_eq!((reply.verdict, reply.reason), (Verdict::Limited, Reason::Faulted), "{reply:?}");
 }
 
 #[test]

@@ -61,12 +61,17 @@ fn expected(mode: Mode, ask: Ask) -> (Result<(), Reason>, Mode) {
         (Mode::Fallen, Ask::Reset) => (Err(Reason::FaultPersists), Mode::Fallen),
         (Mode::Fallen, _) => (Err(Reason::Fallen), Mode::Fallen),
         (Mode::Faulted, Ask::Reset) => (Ok(()), Mode::Holding),
-        (Mode::Faulted, Ask::Stop | Ask::Hold | Ask::SignOfLife) => (Ok(()), Mode::Faulted),
+        (Mode::Faulted, Ask::Hold | Ask::SignOfLife) => (Ok(()), Mode::Faulted),
         (Mode::Faulted, _) => (Err(Reason::Faulted), Mode::Faulted),
+        (Mode::Starting, Ask::Reset) => (Err(Reason::NothingToReset), Mode::Walking),
+        (Mode::Stopping, Ask::Reset) => (Err(Reason::NothingToReset), Mode::Standing),
+        (_, Ask::Reset) => (Err(Reason::NothingToReset), mode),
         _ if is_start => (Ok(()), Mode::Walking),
         (_, Ask::InPlace) => (Ok(()), Mode::InPlace),
         // The feet are side by side after each step in place.
         (Mode::InPlace, Ask::Stop | Ask::Hold) => (Ok(()), Mode::Standing),
+        // The extension waits for the walk.
+        (Mode::InPlace, Ask::Values) => (Err(Reason::InPlace), Mode::InPlace),
         (Mode::InPlace, _) => (Ok(()), Mode::InPlace),
         (Mode::Walking, Ask::Stop) => (Ok(()), Mode::Standing),
         (Mode::Walking, Ask::Hold) => (Ok(()), Mode::Holding),
@@ -134,8 +139,11 @@ fn every_mode_answers_every_request_and_reaches_the_expected_mode() {
             let answer = report.reply.unwrap_or_else(|| panic!("{mode:?}, {ask:?}: no answer"));
             match answered {
                 Ok(()) => assert_eq!(answer.verdict, Verdict::Accepted, "{mode:?}, {ask:?}: {answer:?}"),
-                Err(refusal) => {
-                    assert_eq!((answer.verdict, answer.reason), (Verdict::Refused, refusal), "{mode:?}, {ask:?}");
+                Err(reason) => {
+                    // A stop is never refused, but a faulted robot stays in stride.
+                    let is_limited = (mode, ask) == (Mode::Faulted, Ask::Stop) || reason == Reason::InPlace;
+                    let verdict = if is_limited { Verdict::Limited } else { Verdict::Refused };
+                    assert_eq!((answer.verdict, answer.reason), (verdict, reason), "{mode:?}, {ask:?}");
                 }
             }
             let mut last: Option<Tick> = None;

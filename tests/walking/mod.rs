@@ -1,5 +1,7 @@
 //! Controller and plant together in one process.
 
+mod a_broken_limit_excuses_no_other;
+mod a_grant_does_not_depend_on_the_millisecond;
 mod a_speed_request_takes_effect_at_once;
 mod a_stop_waits_for_nothing;
 mod a_tick_returns_for_every_period;
@@ -24,3 +26,4 @@ mod walks_on_uneven_ground;
 mod walks_on_what_it_does_not_know;
 mod walks_through_sensor_faults;
 mod walks_without_falling;
+mod what_is_accepted_is_walked;

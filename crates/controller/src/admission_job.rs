@@ -5,7 +5,7 @@
 //! lockstep, on another thread in real time) and completes it. That takes milliseconds and allocates nothing.
 
 use interface::{ActiveLimit, Command, GaitChange, Intent, Objection, Reason, Request, Verdict};
-use pattern::{Feasibility, FeasibilityCheck, Gait, Limit, LimitViolation, PatternGenerator};
+use pattern::{Feasibility, FeasibilityCheck, Gait, GaitState, Limit, LimitViolation, PatternGenerator};
 
 use crate::pattern::goal_of;
 
@@ -107,13 +107,14 @@ impl AdmissionJob {
             let predicted_margin = Some(feasibility.margin).filter(|margin| margin.is_finite());
             Some(Decision { predicted_margin, ..decision })
         };
+        let requested = self.qualified(requested);
         // There is nothing to search for when no limit is violated.
         if requested.verdict == Verdict::Refused || feasibility.violation.is_none() {
             return decided(requested, &feasibility);
         }
         let (mut base, mut unchanged) = (in_force, self.simulate(&in_force.into()).1);
-        if unchanged.violation.is_some() && !self.generator.gait_state().is_stepping() {
-            // Nothing is walked that could be gone on with.
+        if unchanged.violation.is_some() && self.generator.gait_state() != GaitState::Walking {
+            // What is in force is not walked: it excuses nothing.
             base = Command::NOMINAL;
             unchanged = self.simulate(&base.into()).1;
         }
@@ -143,12 +144,26 @@ impl AdmissionJob {
         self.generator.gait_state().is_stepping() && left < late.min(0.5)
     }
 
-    /// Simulates the coming knots with a change, until a full step was made with it. In a stand gait parameters are
-    /// simulated as if the walk began: they stay in force until it does.
+    /// Simulates the coming knots with a change: as the robot will move, and as it will walk with what is in force only
+    /// once it does. In a stand gait parameters wait for that, and in place the extension and a high speed do.
     fn simulate(&mut self, change: &GaitChange) -> (Decision, Feasibility) {
+        let changes_something = self.change != GaitChange::NONE;
+        match self.intended_gait() {
+            IntendedGait::Walk => self.simulate_with(change, self.intent),
+            IntendedGait::Stand if self.intent.is_none() => self.simulate_with(change, Some(Intent::Walk)),
+            IntendedGait::InPlace if changes_something => {
+                let walked = self.simulate_with(change, Some(Intent::Walk)).1;
+                let (decision, feasibility) = self.simulate_with(change, self.intent);
+                (decision, feasibility.and(&walked))
+            }
+            IntendedGait::Stand | IntendedGait::InPlace => self.simulate_with(change, self.intent),
+        }
+    }
+
+    /// Simulates the coming knots with a change and an intent, until a full step was made with both.
+    fn simulate_with(&mut self, change: &GaitChange, intent: Option<Intent>) -> (Decision, Feasibility) {
         self.trial.clone_from(&self.generator);
-        let is_for_later = self.intent.is_none() && !self.generator.gait_state().is_stepping();
-        let decision = apply(&mut self.trial, change, if is_for_later { Some(Intent::Walk) } else { self.intent });
+        let decision = apply(&mut self.trial, change, intent);
         let end = decision.effect_half_step + HALF_STEPS;
         let goes_on = |trial: &PatternGenerator, knots: usize| {
             let is_seen = trial.half_step().index >= end || trial.gait_state().is_standing();
@@ -156,6 +171,34 @@ impl AdmissionJob {
         };
         (decision, self.check.play(&mut self.trial, goes_on))
     }
+
+    /// What the robot does once the intent is in effect.
+    fn intended_gait(&self) -> IntendedGait {
+        match (self.intent, self.generator.gait_state()) {
+            (Some(Intent::Walk), _) | (None, GaitState::Walking) => IntendedGait::Walk,
+            (Some(Intent::InPlace), _) | (None, GaitState::InPlace { .. }) => IntendedGait::InPlace,
+            _ => IntendedGait::Stand,
+        }
+    }
+
+    /// Tells that part of what was asked for is not walked in place.
+    fn qualified(&self, decision: Decision) -> Decision {
+        let GaitChange { speed, extension, .. } = self.change;
+        let waits = speed.is_some_and(|speed| speed > 1.0) || extension.is_some_and(|extension| extension != 0.0);
+        if decision.verdict == Verdict::Accepted && waits && self.intended_gait() == IntendedGait::InPlace {
+            let objection = Some(Objection { reason: Reason::InPlace, active_limit: None });
+            return Decision { verdict: Verdict::Limited, objection, ..decision };
+        }
+        decision
+    }
+}
+
+/// What the robot does once an intent is in effect.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum IntendedGait {
+    Walk,
+    InPlace,
+    Stand,
 }
 
 /// Applies what the configured range admits of a change, and the intent.
@@ -175,7 +218,10 @@ fn objection(violation: &LimitViolation) -> Objection {
         Limit::Margin => (Reason::Margin, None),
         Limit::JointRange(joint) => (Reason::JointRange, Some(joint)),
         Limit::JointRate(joint) => (Reason::JointRate, Some(joint)),
+        Limit::Torque(joint) => (Reason::Torque, Some(joint)),
         Limit::Voltage(joint) => (Reason::Voltage, Some(joint)),
+        Limit::Friction => (Reason::Friction, None),
+        Limit::YawTorque => (Reason::YawTorque, None),
         Limit::SoleClearance => (Reason::SoleClearance, None),
         // Value and bound mean nothing.
         Limit::LegReach => return Objection { reason: Reason::LegReach, active_limit: None },

@@ -5,7 +5,7 @@ mod robot_posture;
 
 use std::sync::Arc;
 
-use dynamics::{Kinematics, ReferenceDynamics, Tree};
+use dynamics::{GroundContact, Kinematics, ReferenceDynamics, Tree};
 use gait::{NominalTable, Start, Walk, WalkError};
 use interface::{
     AddedAngles, Fault, Faults, Intent, LatchedFault, Measurement, Mode, Reason, Rejection, Reply, Report, Setpoint,
@@ -30,10 +30,6 @@ use crate::sensor_consistency::{Expectation, ExpectedSupport};
 
 /// With the measured ZMP this far inside a sole (m), the whole sole is on the ground.
 const FLAT_MARGIN: f64 = 0.005;
-/// Time before and after a support change in which the weight may move from foot to foot (s).
-const SUPPORT_CHANGE: f64 = 0.03;
-/// Least speed factor by which [`SUPPORT_CHANGE`] is measured.
-const SPEED_MIN: f64 = 0.1;
 /// Longest time over which the last estimate of the centre of mass is extrapolated (s).
 const EXTRAPOLATED_MAX: f64 = 0.02;
 /// Shortest period that a tick plays (s): rates are differences over it.
@@ -123,7 +119,7 @@ impl Controller {
         let tree = Tree::new(mechanism);
         let gait = pattern.gait();
         let mut reference = ReferenceDynamics::new(mechanism, &tree, walk.mirror());
-        reference.update(&tree, walk.mirror(), &gait.motion(), gait.in_double_support());
+        reference.update(&tree, walk.mirror(), &gait.motion(), gait.contact());
         let first = walk.mirror().to_physical(gait.half_step().support, &gait.motion().angles);
         let check = FeasibilityCheck::new(mechanism, reference.clone(), parameters.feasibility);
         Self {
@@ -299,7 +295,7 @@ impl Controller {
         let gait = self.pattern.gait();
         if !self.follows_walk() || matches!(gait.phase(), GaitPhase::Standing(_) | GaitPhase::Starting) {
             None
-        } else if gait.in_double_support() || self.is_changing_support() {
+        } else if gait.in_double_support() || gait.is_changing_support() {
             Some(ExpectedSupport::AnyFoot)
         } else {
             Some(ExpectedSupport::OneFoot(gait.half_step().support))
@@ -314,7 +310,7 @@ impl Controller {
         }
         let com = com.filter(|_| follows_walk);
         let in_double_support = self.pattern.gait().in_double_support();
-        let is_changing_support = self.is_changing_support();
+        let is_changing_support = self.pattern.gait().is_changing_support();
 
         // A foot that bears alone says where the ground pushes.
         let zmp = self.contact.zmp.filter(|_| self.contact.in_contact == [true, false] && !is_changing_support);
@@ -335,14 +331,6 @@ impl Controller {
         }
     }
 
-    /// Whether the weight moves from foot to foot just now, as planned.
-    fn is_changing_support(&self) -> bool {
-        let gait = self.pattern.gait();
-        let duration = gait.walk().table().duration / gait.speed().max(SPEED_MIN);
-        let progress = gait.half_step().progress;
-        progress.min(1.0 - progress) * duration < SUPPORT_CHANGE
-    }
-
     /// Whether the joints follow the walk, so that feedback applies.
     fn follows_walk(&self) -> bool {
         self.state.plays_gait() && self.pattern.gait().follows_walk()
@@ -357,7 +345,7 @@ impl Controller {
             let gait = self.pattern.gait();
             let mirror = gait.walk().mirror();
             let motion = mirror.to_support(gait.half_step().support, &recovery);
-            self.reference.update(&self.tree, mirror, &motion, true);
+            self.reference.update(&self.tree, mirror, &motion, GroundContact::BothFeet);
             return motion;
         }
         let gait = self.pattern.gait_mut();
@@ -369,7 +357,7 @@ impl Controller {
             self.last_com = None;
         }
         let motion = gait.motion();
-        self.reference.update(&self.tree, gait.walk().mirror(), &motion, gait.in_double_support());
+        self.reference.update(&self.tree, gait.walk().mirror(), &motion, gait.contact());
         self.landing.advance(&self.tree, self.reference.kinematics(), &motion.angles, dt);
         motion + *self.feedback.offsets() + *self.landing.offsets()
     }

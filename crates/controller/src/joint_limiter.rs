@@ -2,26 +2,23 @@
 //! finite.
 
 use interface::{Fault, Faults, Setpoint};
-use model::{Joint, JointVector, Mechanism, Motion, PerJoint};
+use model::{Joint, JointVector, Mechanism, Motion, Motor, PerJoint};
 
 /// Limits setpoints to what the joints permit.
 #[derive(Clone, Debug)]
 pub struct JointLimiter {
     limits: PerJoint<Option<model::JointLimits>>,
-    /// Torque of each joint's motor at standstill and full voltage (N·m).
-    torque_max: PerJoint<f64>,
+    /// The motor of each joint.
+    motors: PerJoint<Option<Motor>>,
     last: JointVector,
 }
 
 impl JointLimiter {
     /// A limiter for a mechanism whose joints are at `angles` now (rad).
     pub fn new(mechanism: &Mechanism, angles: &JointVector) -> Self {
-        let torque_max = |joint: Joint| {
-            mechanism.links[joint].motor.map_or(0.0, |motor| motor.torque_per_volt() * motor.voltage_max)
-        };
         Self {
             limits: PerJoint::from_fn(|joint| mechanism.links[joint].limits),
-            torque_max: PerJoint::from_fn(torque_max),
+            motors: PerJoint::from_fn(|joint| mechanism.links[joint].motor),
             last: *angles,
         }
     }
@@ -48,7 +45,8 @@ impl JointLimiter {
             setpoint.angles[joint] = angle;
             // A joint whose angle was limited must not be carried on by its rate.
             setpoint.rates[joint] = if angle == commanded.angles[joint] { rate } else { 0.0 };
-            setpoint.feed_forward[joint] = feed_forward[joint].clamp(-self.torque_max[joint], self.torque_max[joint]);
+            setpoint.feed_forward[joint] =
+                self.motors[joint].map_or(0.0, |motor| available(&motor, feed_forward[joint], setpoint.rates[joint]));
         }
         self.last = setpoint.angles;
         setpoint
@@ -63,4 +61,12 @@ impl JointLimiter {
     pub fn hold(&self) -> Setpoint {
         Setpoint { angles: self.last, rates: JointVector::ZERO, feed_forward: JointVector::ZERO }
     }
+}
+
+/// The torque next to `torque` that a motor gives at a joint rate with its supply voltage (N·m), never more than at
+/// standstill.
+fn available(motor: &Motor, torque: f64, rate: f64) -> f64 {
+    let stall = motor.torque_per_volt() * motor.voltage_max;
+    let lost = motor.back_emf_damping() * rate;
+    torque.min(stall - lost).max(-stall - lost).clamp(-stall, stall)
 }

@@ -11,6 +11,9 @@ use crate::measurement_validator::ValidatorParameters;
 use crate::pattern::Compensation;
 use crate::sensor_consistency::ConsistencyParameters;
 
+/// Coefficient of friction that is relied on unless the file says otherwise: rubber on a dry floor has 0.7 and more.
+const FRICTION: f64 = 0.7;
+
 /// The parameters of the controller, read by its [`Config`] implementation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters {
@@ -92,6 +95,7 @@ fn feasibility(table: &Table) -> FeasibilityParameters {
     FeasibilityParameters {
         margin_min: table.number("margin_min_m").between(-0.1, 0.1),
         clearance_min: table.number("clearance_min_m").between(0.0, 0.1),
+        friction: if table.has("friction") { table.number("friction").between(0.05, 2.0) } else { FRICTION },
     }
 }
 
@@ -188,6 +192,7 @@ mod tests {
         let committed = with("", "").unwrap().validator;
         let default = ValidatorParameters::with_default_thresholds(committed.timeout, committed.tilt_max);
         assert_eq!(committed, default, "the file states the defaults");
+        assert_eq!(with("\nfriction = 0.7", ""), with("", ""), "and that of friction");
         let other = with("fall_confirmation_s = 0.05", "fall_confirmation_s = 0.1").unwrap().validator;
         assert_eq!(other, ValidatorParameters { fall_confirmation: 0.1, ..default });
         assert!(with("fall_confirmation_s = 0.05", "fall_confirmation_s = -0.1").is_err());

@@ -1,15 +1,30 @@
 //! The dynamics of the commanded motion, by inverse dynamics: joint torques, zero-moment point (ZMP), centre of mass.
 
-use model::{ComState, Joint, JointVector, Mechanism, Mirror, Mirrored, Motion, Side};
+use model::{ComState, Joint, JointVector, Mechanism, Mirror, Mirrored, Motion, Side, Sole, Wrench};
 use nalgebra::{Vector2, Vector3};
 
 use crate::{Kinematics, NewtonEuler, SupportPolygon, Tree, zmp};
+
+/// Which feet are on the ground as planned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GroundContact {
+    /// The support foot alone.
+    SupportFoot,
+    /// Both, around a support change: the weight moves from foot to foot within a few hundredths of a second.
+    SupportChange,
+    /// Both, in a stand.
+    BothFeet,
+}
 
 /// What a motion needs of drives and ground if the support sole stays flat.
 #[derive(Clone, Debug)]
 pub struct ReferenceDynamics {
     inverse: NewtonEuler,
+    /// The same motion on the swing foot; used where it carries a share.
+    other: NewtonEuler,
     sole: SupportPolygon,
+    /// The soles, alike on both feet.
+    soles: Sole,
     /// Reflected inertias of the rotors (kg·m²).
     rotors: JointVector,
     /// Lean of the vertical over the support sole: x and y of the unit vector (-).
@@ -33,7 +48,9 @@ impl ReferenceDynamics {
         let kinematics = Kinematics::fixed_base(tree, &JointVector::ZERO);
         let mut dynamics = Self {
             inverse: NewtonEuler::default(),
+            other: NewtonEuler::default(),
             sole: SupportPolygon::hull(mechanism.sole.corners().map(|corner| corner.xy())),
+            soles: mechanism.sole,
             rotors,
             vertical: Vector2::zeros(),
             torques: JointVector::ZERO,
@@ -41,7 +58,7 @@ impl ReferenceDynamics {
             margin: 0.0,
             com: kinematics.com_state(tree, &JointVector::ZERO),
         };
-        dynamics.update(tree, mirror, &Motion::default(), false);
+        dynamics.update(tree, mirror, &Motion::default(), GroundContact::SupportFoot);
         dynamics
     }
 
@@ -61,33 +78,66 @@ impl ReferenceDynamics {
         &self.inverse.kinematics
     }
 
+    /// Wrench of the ground about the origin of the support sole, in its axes, if it alone carries the robot.
+    pub fn ground_on_sole(&self) -> Wrench {
+        let axes = self.inverse.kinematics.rotation[Mechanism::foot(Side::Right)];
+        let Wrench { force, moment } = self.inverse.ground;
+        Wrench { force: axes.tr_mul(&force), moment: axes.tr_mul(&moment) }
+    }
+
     /// Computes the dynamics of a motion.
     ///
-    /// In single support the support foot carries all. In double support both feet share the ground reaction as the ZMP
-    /// lies between them. Torques are linear in that share: they are a mixture of those of standing on either foot.
+    /// The support foot carries all. In a stand both feet share the ground reaction as the ZMP lies between them, and
+    /// around a support change as it lies between their edges. Torques are linear in that share: they are a mixture of
+    /// those of standing on either foot.
     ///
     /// * `motion` – in support coordinates; on a slope `FootRoll` and `FootPitch` are the pose of the sole in level
     ///   axes
-    pub fn update(&mut self, tree: &Tree, mirror: &Mirror, motion: &Motion, in_double_support: bool) {
+    pub fn update(&mut self, tree: &Tree, mirror: &Mirror, motion: &Motion, contact: GroundContact) {
         self.vertical = Vector2::new(-motion.angles[Joint::FootPitch], motion.angles[Joint::FootRoll]);
-        let on_swing = in_double_support.then(|| {
-            self.inverse.compute_fixed_base(tree, &motion.mirrored(mirror));
-            self.inverse.torques.mirrored(mirror)
-        });
         self.inverse.compute_fixed_base(tree, motion);
         // A motion that needs no ground has its ZMP infinitely far away; the last one stands for it.
         if let Some(point) = zmp(&self.inverse.ground) {
             self.zmp = point;
         }
+        let share = self.share_of_swing_foot(contact);
         let on_support = self.inverse.torques;
-        let carried = on_swing.map_or(on_support, |on_swing| {
-            let to_swing = self.inverse.kinematics.origin[Mechanism::foot(Side::Left)].xy();
-            let share = (self.zmp.dot(&to_swing) / to_swing.norm_squared()).clamp(0.0, 1.0);
+        let carried = if share > 0.0 {
+            let on_swing = self.on_swing_foot(tree, mirror, motion);
             on_support * (1.0 - share) + on_swing * share
-        });
+        } else {
+            on_support
+        };
         let rotors = motion.accelerations.zip_with(&self.rotors, |acceleration, rotor| acceleration * rotor);
         self.torques = carried + rotors;
         self.margin = self.sole.margin(self.zmp);
         self.com = self.inverse.kinematics.com_state(tree, &motion.rates);
+    }
+
+    /// Torques of the motion if the swing foot carries all (N·m).
+    fn on_swing_foot(&mut self, tree: &Tree, mirror: &Mirror, motion: &Motion) -> JointVector {
+        self.other.compute_fixed_base(tree, &motion.mirrored(mirror));
+        self.other.torques.mirrored(mirror)
+    }
+
+    /// The swing foot's share of the ground reaction.
+    fn share_of_swing_foot(&self, contact: GroundContact) -> f64 {
+        let to_swing = self.inverse.kinematics.origin[Mechanism::foot(Side::Left)].xy();
+        let along = self.zmp.dot(&to_swing) / to_swing.norm_squared();
+        let (leaves, enters) = match contact {
+            GroundContact::SupportFoot => return 0.0,
+            GroundContact::SupportChange => self.gap(to_swing),
+            GroundContact::BothFeet => (0.0, 1.0),
+        };
+        if enters > leaves { ((along - leaves) / (enters - leaves)).clamp(0.0, 1.0) } else { 0.0 }
+    }
+
+    /// Where the way from ankle to ankle leaves the support sole and enters the other one, taken to be parallel (-).
+    fn gap(&self, way: Vector2<f64>) -> (f64, f64) {
+        let Sole { ahead, behind, half_width, .. } = self.soles;
+        let share = |room: f64, length: f64| if length.abs() > room { room / length.abs() } else { 1.0 };
+        let aside = share(half_width, way.y);
+        let [before, beyond] = if way.x >= 0.0 { [ahead, behind] } else { [behind, ahead] };
+        (share(before, way.x).min(aside), 1.0 - share(beyond, way.x).min(aside))
     }
 }

@@ -33,7 +33,7 @@ codes! {
         JointRange = 12 "a joint would leave its range",
         /// A joint would exceed its rate limit (rad/s).
         JointRate = 13 "a joint would exceed its rate limit",
-        /// A motor would exceed its torque limit (N·m). Reserved: no controller of this version sends it.
+        /// A motor would exceed its torque limit (N·m).
         Torque = 14 "a motor would exceed its torque limit",
         /// A motor would need more than its supply voltage (V).
         Voltage = 15 "a motor would need more than its supply voltage",
@@ -49,9 +49,17 @@ codes! {
         Faulted = 20 "a fault is latched: send reset",
         /// The cause of the latched fault is still present.
         FaultPersists = 21 "the fault persists: the robot must be upright and sending measurements",
+        /// The sole would slip: horizontal per vertical force of the ground.
+        Friction = 22 "the support sole would slip",
+        /// The sole would spin (N·m).
+        YawTorque = 23 "the support sole would turn on the ground",
+        /// No fault is latched.
+        NothingToReset = 24 "no fault is latched: there is nothing to reset",
+        /// Steps in place are not extended and at most at nominal speed.
+        InPlace = 25 "in place the robot steps without extension and at most at speed 1: it takes effect once it walks",
         /// It expired before it could take effect: see [`Request::expires_ns`](crate::Request::expires_ns).
-        Expired = 22 "it expired before it could take effect",
+        Expired = 26 "it expired before it could take effect",
         /// The robot cannot move to a stand from its posture: its feet would slip.
-        NotInStand = 30 "the robot is not in a stand: put its feet side by side first",
+        NotInStand = 27 "the robot is not in a stand: put its feet side by side first",
     }
 }

@@ -135,11 +135,12 @@ fn unit(reason: Reason) -> Unit {
     let (per_si, name) = match reason {
         Reason::TurnLimit | Reason::ExtensionLimit | Reason::JointRange | Reason::NotInStand => (DEGREES, "°"),
         Reason::JointRate => (DEGREES, " °/s"),
-        Reason::Torque => (1.0, " N·m"),
+        Reason::Torque | Reason::YawTorque => (1.0, " N·m"),
         Reason::Voltage => (1.0, " V"),
         Reason::Margin | Reason::SoleClearance | Reason::LegReach => (1e3, " mm"),
-        // The speed is a factor; the others have no limit.
+        // Speed and friction are factors; the others have no limit.
         Reason::SpeedLimit
+        | Reason::Friction
         | Reason::None
         | Reason::NotFinite
         | Reason::CannotRestart
@@ -152,6 +153,8 @@ fn unit(reason: Reason) -> Unit {
         | Reason::Fallen
         | Reason::Faulted
         | Reason::FaultPersists
+        | Reason::NothingToReset
+        | Reason::InPlace
         | Reason::Expired => (1.0, ""),
     };
     Unit { per_si, name }
@@ -242,7 +245,9 @@ mod tests {
                 | Reason::ExtensionLimit
                 | Reason::Margin
                 | Reason::SoleClearance
-                | Reason::LegReach => Some(ActiveLimit { joint: None, value: 0.5, limit: 0.4 }),
+                | Reason::LegReach
+                | Reason::Friction
+                | Reason::YawTorque => Some(ActiveLimit { joint: None, value: 0.5, limit: 0.4 }),
                 Reason::JointRange | Reason::JointRate | Reason::Torque | Reason::Voltage => {
                     Some(ActiveLimit { joint: Some(Joint::LeftKnee), value: 0.5, limit: 0.4 })
                 }

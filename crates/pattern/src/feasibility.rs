@@ -1,13 +1,18 @@
 //! Feasibility check: plays coming half-steps ahead and checks them against the limits of soles, joints and drives.
+//!
+//! Most limits change slowly from knot to knot. Around a support change the ZMP moves from foot to foot within two
+//! knots, and torques peak between them. So the motion between the knots is checked, too, there and wherever a drive
+//! comes near its limit; always at the same shares of the time between two knots, whenever the check is made.
 
 use dynamics::ReferenceDynamics;
 use model::{Joint, JointVector, Mechanism, Motion, Side};
 use nalgebra::{Point3, Vector2};
 
 use crate::gait::Gait;
-use crate::knot::KNOT;
+use crate::limit::{Excess, Limit, LimitViolation};
 use crate::pattern_generator::PatternGenerator;
 use crate::proportions::PatternProportions;
+use crate::sole_friction::SoleFriction;
 
 /// The result of a check.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,51 +23,8 @@ pub struct Feasibility {
     pub violation: Option<LimitViolation>,
     /// How far each limit is exceeded.
     excess: Excess,
-}
-
-/// How far each limit is exceeded at most; 0 where it is kept.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Excess {
-    /// Missing distance of the ZMP to the edge of the sole (m).
-    margin: f64,
-    /// Of the physical joints (rad).
-    range: JointVector,
-    /// Of the physical joints (rad/s).
-    rate: JointVector,
-    /// Of the physical joints' motors (V).
-    voltage: JointVector,
-    /// Missing distance of the swing sole (m).
-    clearance: f64,
-    /// Whether a leg was too short for a posture.
-    is_out_of_reach: bool,
-}
-
-/// A limit that is violated.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LimitViolation {
-    /// Which limit.
-    pub limit: Limit,
-    /// The value that the motion needs, in the unit of the limit.
-    pub value: f64,
-    /// The bound on this value, in the unit of the limit.
-    pub bound: f64,
-}
-
-/// A limit of the robot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Limit {
-    /// Distance of the ZMP to the edge of the sole (m).
-    Margin,
-    /// Angle of a physical joint (rad).
-    JointRange(Joint),
-    /// Rate of a physical joint (rad/s).
-    JointRate(Joint),
-    /// Voltage of a physical joint's motor (V).
-    Voltage(Joint),
-    /// Distance of the swing sole to the support sole, or to the ground in mid-swing (m).
-    SoleClearance,
-    /// Length of a leg, which was too short for a posture; value and bound mean nothing.
-    LegReach,
+    /// The largest share of its limit that any joint rate, torque or voltage of the present knot takes.
+    load: f64,
 }
 
 /// The configured limits.
@@ -72,16 +34,22 @@ pub struct FeasibilityParameters {
     pub margin_min: f64,
     /// Least distance of the soles to each other (m).
     pub clearance_min: f64,
+    /// Coefficient of friction of the ground that can be relied on.
+    pub friction: f64,
 }
 
 /// Progress between which the margin counts: at a support change the ZMP moves from foot to foot.
 const OFF_SUPPORT_CHANGES: std::ops::Range<f64> = 0.1..0.9;
 /// Progress between which the swing sole must be off the ground.
 const MID_SWING: std::ops::Range<f64> = 0.3..0.7;
-/// Loss of margin that counts as none (m).
-const MARGIN_LOSS_MAX: f64 = 0.002;
-/// Relative increase of another excess that counts as none.
-const INCREASE_MAX: f64 = 0.02;
+/// Parts into which the time between two knots is divided around a support change: a millisecond each.
+const PARTS_NEAR_SUPPORT_CHANGE: u32 = 10;
+/// Parts into which it is divided where a drive comes near its limit.
+const PARTS_NEAR_LIMIT: u32 = 4;
+/// Share of its limit from which a drive comes near it.
+const NEAR_LIMIT: f64 = 0.85;
+/// Just before and after a support change, as a share of the time between two knots.
+const AT_SUPPORT_CHANGE: f64 = 1e-6;
 
 /// Checks motions of one robot. Never allocates after it is made.
 #[derive(Clone, Debug)]
@@ -90,6 +58,7 @@ pub struct FeasibilityCheck {
     mechanism: Mechanism,
     proportions: PatternProportions,
     dynamics: ReferenceDynamics,
+    friction: SoleFriction,
 }
 
 impl FeasibilityCheck {
@@ -97,100 +66,129 @@ impl FeasibilityCheck {
     ///
     /// * `dynamics` – of that robot; its state does not matter
     pub fn new(mechanism: &Mechanism, dynamics: ReferenceDynamics, parameters: FeasibilityParameters) -> Self {
-        Self { parameters, mechanism: mechanism.clone(), proportions: PatternProportions::of(mechanism), dynamics }
+        Self {
+            parameters,
+            mechanism: mechanism.clone(),
+            proportions: PatternProportions::of(mechanism),
+            dynamics,
+            friction: SoleFriction::new(&mechanism.sole, parameters.friction),
+        }
     }
 
-    /// Advances a generator knot by knot and checks each, as long as `goes_on` says so of the generator and the number
-    /// of knots so far.
+    /// Advances a generator knot by knot and checks the motion between them, as long as `goes_on` says so of the
+    /// generator and the number of knots so far. What lies between its present knots is planned already and not
+    /// checked.
     pub fn play(
         &mut self,
         generator: &mut PatternGenerator,
         goes_on: impl Fn(&PatternGenerator, usize) -> bool,
     ) -> Feasibility {
-        let mut feasibility = Feasibility { margin: f64::INFINITY, violation: None, excess: Excess::NONE };
+        let mut feasibility = Feasibility { margin: f64::INFINITY, violation: None, excess: Excess::NONE, load: 0.0 };
         for knots in 0.. {
             if !goes_on(generator, knots) {
                 break;
             }
-            generator.advance(KNOT);
-            self.check(generator, &mut feasibility);
+            generator.advance_to_next_knot();
+            self.check_until_next_knot(generator, &mut feasibility);
         }
         let (margin, margin_min) = (feasibility.margin, self.parameters.margin_min);
         if margin < margin_min {
-            feasibility.excess.margin = margin_min - margin;
-            let violation = LimitViolation { limit: Limit::Margin, value: margin, bound: margin_min };
-            feasibility.violation.get_or_insert(violation);
+            feasibility.note(Limit::Margin, margin, margin_min);
         }
         feasibility
     }
 
-    /// Checks the present knot.
-    fn check(&mut self, generator: &PatternGenerator, feasibility: &mut Feasibility) {
+    /// Checks the motion from the present knot to the next one, and returns to the present knot.
+    fn check_until_next_knot(&mut self, generator: &mut PatternGenerator, feasibility: &mut Feasibility) {
         if generator.is_leg_out_of_reach() {
-            feasibility.excess.is_out_of_reach = true;
-            feasibility.violation.get_or_insert(LimitViolation { limit: Limit::LegReach, value: 0.0, bound: 0.0 });
+            feasibility.note(Limit::LegReach, 0.0, 0.0);
             return;
         }
+        feasibility.load = 0.0;
+        self.check(generator, feasibility);
+        let parts = if generator.is_near_support_change() {
+            PARTS_NEAR_SUPPORT_CHANGE
+        } else if feasibility.load > NEAR_LIMIT {
+            PARTS_NEAR_LIMIT
+        } else {
+            return;
+        };
+        let between = (1..parts).map(|part| f64::from(part) / f64::from(parts));
+        let at_support_change = generator.share_at_support_change().into_iter();
+        let at_support_change = at_support_change.flat_map(|at| [at - AT_SUPPORT_CHANGE, at + AT_SUPPORT_CHANGE]);
+        for share in between.chain(at_support_change) {
+            generator.seek(share);
+            self.check(generator, feasibility);
+        }
+        generator.seek(0.0);
+    }
+
+    /// Checks the present instant.
+    fn check(&mut self, generator: &PatternGenerator, feasibility: &mut Feasibility) {
         let (tree, mirror) = (generator.tree(), generator.walk().mirror());
         let (half_step, in_double_support) = (generator.half_step(), generator.in_double_support());
         let motion = generator.motion();
-        self.dynamics.update(tree, mirror, &motion, in_double_support);
+        self.dynamics.update(tree, mirror, &motion, generator.contact());
         let is_swinging = !in_double_support && OFF_SUPPORT_CHANGES.contains(&half_step.progress);
         if is_swinging {
             feasibility.margin = feasibility.margin.min(self.dynamics.margin);
+            self.check_clearance(half_step.progress, feasibility);
+        }
+        if is_swinging || in_double_support {
+            self.check_friction(is_swinging, feasibility);
         }
         let motion = mirror.to_physical(half_step.support, &motion);
         let torques = mirror.to_physical(half_step.support, &self.dynamics.torques);
         self.check_joints(&motion, &torques, feasibility);
-        if is_swinging && let Some(violation) = self.check_clearance(half_step.progress) {
-            let excess = &mut feasibility.excess;
-            excess.clearance = excess.clearance.max(violation.bound - violation.value);
-            feasibility.violation.get_or_insert(violation);
-        }
     }
 
     /// * `motion`, `torques` – of physical joints
     fn check_joints(&self, motion: &Motion, torques: &JointVector, feasibility: &mut Feasibility) {
-        let Feasibility { violation, excess, .. } = feasibility;
-        let mut note = |limit, value: f64, bound: f64, excess: &mut f64| {
-            *excess = excess.max((value - bound).abs());
-            violation.get_or_insert(LimitViolation { limit, value, bound });
-        };
         for joint in Joint::ALL {
             let link = &self.mechanism.links[joint];
             let Some(limits) = link.limits else { continue };
             let (angle, rate) = (motion.angles[joint], motion.rates[joint]);
             let bound = angle.clamp(limits.angle_min, limits.angle_max);
             if angle != bound {
-                note(Limit::JointRange(joint), angle, bound, &mut excess.range[joint]);
+                feasibility.note(Limit::JointRange(joint), angle, bound);
             }
-            if rate.abs() > limits.rate_max {
-                note(Limit::JointRate(joint), rate, limits.rate_max.copysign(rate), &mut excess.rate[joint]);
-            }
+            feasibility.bound(Limit::JointRate(joint), rate, limits.rate_max);
             let Some(motor) = link.motor else { continue };
+            feasibility.bound(Limit::Torque(joint), torques[joint], motor.torque_per_volt() * motor.voltage_max);
             let voltage = (torques[joint] + motor.back_emf_damping() * rate) / motor.torque_per_volt();
-            if voltage.abs() > motor.voltage_max {
-                let bound = motor.voltage_max.copysign(voltage);
-                note(Limit::Voltage(joint), voltage, bound, &mut excess.voltage[joint]);
-            }
+            feasibility.bound(Limit::Voltage(joint), voltage, motor.voltage_max);
+        }
+    }
+
+    /// Checks what the ground must hold by friction; the moment about the vertical only where one sole must hold it.
+    fn check_friction(&self, is_swinging: bool, feasibility: &mut Feasibility) {
+        let ground = self.dynamics.ground_on_sole();
+        let slip = self.friction.slip(&ground);
+        if slip > self.parameters.friction {
+            feasibility.note(Limit::Friction, slip, self.parameters.friction);
+        }
+        if is_swinging && let Some(bound) = self.friction.exceeded_yaw_torque(&ground) {
+            feasibility.note(Limit::YawTorque, ground.moment.z, bound);
         }
     }
 
     /// Checks the distance of the swing sole to the support sole and, in mid-swing, to the ground.
-    fn check_clearance(&self, progress: f64) -> Option<LimitViolation> {
+    fn check_clearance(&self, progress: f64, feasibility: &mut Feasibility) {
         let sole = &self.mechanism.sole;
         let swing_sole = self.dynamics.kinematics().sole_to_world(&self.mechanism, Side::Left);
         let (height, height_min) = (swing_sole.translation.z, self.proportions.swing_height_min);
         if MID_SWING.contains(&progress) && height < height_min {
-            return Some(LimitViolation { limit: Limit::SoleClearance, value: height, bound: height_min });
+            feasibility.note(Limit::SoleClearance, height, height_min);
+            return;
         }
         let gap = sole.corners().into_iter().fold(f64::INFINITY, |gap, corner| {
             let point: Vector2<f64> = (swing_sole * Point3::from(corner)).coords.xy();
             let beside = Vector2::new(point.x.clamp(-sole.behind, sole.ahead), point.y.min(sole.half_width));
             gap.min((point - beside).norm())
         });
-        let bound = self.parameters.clearance_min;
-        (gap < bound).then_some(LimitViolation { limit: Limit::SoleClearance, value: gap, bound })
+        if gap < self.parameters.clearance_min {
+            feasibility.note(Limit::SoleClearance, gap, self.parameters.clearance_min);
+        }
     }
 }
 
@@ -199,30 +197,28 @@ impl Feasibility {
     pub fn is_no_worse_than(&self, other: &Feasibility) -> bool {
         self.violation.is_none() || self.excess.is_within(&other.excess)
     }
-}
 
-impl Excess {
-    const NONE: Self = Self {
-        margin: 0.0,
-        range: JointVector::ZERO,
-        rate: JointVector::ZERO,
-        voltage: JointVector::ZERO,
-        clearance: 0.0,
-        is_out_of_reach: false,
-    };
+    /// Of two motions together: each limit as it is exceeded by either.
+    #[must_use]
+    pub fn and(mut self, other: &Feasibility) -> Self {
+        self.margin = self.margin.min(other.margin);
+        self.violation = self.violation.or(other.violation);
+        self.excess = self.excess.max(&other.excess);
+        self
+    }
 
-    /// Whether no limit is exceeded further than in `other`.
-    fn is_within(&self, other: &Excess) -> bool {
-        let is_within = |ours: f64, theirs: f64| ours <= theirs * (1.0 + INCREASE_MAX);
-        let all_within = |ours: &JointVector, theirs: &JointVector| {
-            Joint::ALL.into_iter().all(|joint| is_within(ours[joint], theirs[joint]))
-        };
-        let margin_loss_max = if other.margin > 0.0 { MARGIN_LOSS_MAX } else { 0.0 };
-        self.margin <= other.margin + margin_loss_max
-            && all_within(&self.range, &other.range)
-            && all_within(&self.rate, &other.rate)
-            && all_within(&self.voltage, &other.voltage)
-            && is_within(self.clearance, other.clearance)
-            && (other.is_out_of_reach || !self.is_out_of_reach)
+    /// Notes a violation.
+    fn note(&mut self, limit: Limit, value: f64, bound: f64) {
+        let violation = LimitViolation { limit, value, bound };
+        self.excess.note(&violation);
+        self.violation.get_or_insert(violation);
+    }
+
+    /// Notes how near a value is to its limit, and a violation if it is beyond, either way.
+    fn bound(&mut self, limit: Limit, value: f64, max: f64) {
+        self.load = self.load.max(value.abs() / max);
+        if value.abs() > max {
+            self.note(limit, value, max.copysign(value));
+        }
     }
 }

@@ -1,11 +1,17 @@
 //! The trait of gaits: what a controller plays, tick by tick.
 
 use ::gait::{RangeCheck, Walk};
+use dynamics::GroundContact;
 use interface::{Command, GaitChange, HalfStep};
 use model::Motion;
 use nalgebra::Vector2;
 
 use crate::{GaitPhase, Stance};
+
+/// Time before and after a support change in which the weight may move from foot to foot (s).
+const SUPPORT_CHANGE: f64 = 0.03;
+/// Least speed factor by which [`SUPPORT_CHANGE`] is measured.
+const SPEED_MIN: f64 = 0.1;
 
 /// A gait that a controller plays. All motions, vectors and rotations are expressed in support coordinates: as if the
 /// support foot were the right one.
@@ -48,6 +54,24 @@ pub trait Gait {
     /// Whether both feet are to bear weight: in a stand, and until the weight has shifted onto the first support foot.
     /// At a support change the weight is taken to change feet at once.
     fn in_double_support(&self) -> bool;
+
+    /// Whether the weight moves from foot to foot just now, as planned.
+    fn is_changing_support(&self) -> bool {
+        let duration = self.walk().table().duration / self.speed().max(SPEED_MIN);
+        let progress = self.half_step().progress;
+        progress.min(1.0 - progress) * duration < SUPPORT_CHANGE
+    }
+
+    /// Which feet are on the ground as planned.
+    fn contact(&self) -> GroundContact {
+        if self.in_double_support() {
+            GroundContact::BothFeet
+        } else if self.is_changing_support() {
+            GroundContact::SupportChange
+        } else {
+            GroundContact::SupportFoot
+        }
+    }
 
     /// Whether the plan needed a foot out of a leg's reach, so that the posture before was kept.
     fn is_leg_out_of_reach(&self) -> bool;

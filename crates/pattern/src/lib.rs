@@ -35,6 +35,7 @@ mod ground_slope_estimator;
 mod hip_height;
 mod incremental_replan;
 mod knot;
+mod limit;
 mod lipm_residual;
 mod pattern_generator;
 mod pattern_model;
@@ -42,6 +43,7 @@ mod plan;
 mod playback;
 mod preview_controller;
 mod proportions;
+mod sole_friction;
 mod speed_override;
 mod step_adjustment;
 mod stop_in_stride;
@@ -51,10 +53,11 @@ mod uncompensated_gait;
 mod whole_body_ik;
 mod zmp_reference;
 
-pub use feasibility::{Feasibility, FeasibilityCheck, FeasibilityParameters, Limit, LimitViolation};
+pub use feasibility::{Feasibility, FeasibilityCheck, FeasibilityParameters};
 pub use gait_phase::GaitPhase;
 pub use gait_state::{GaitState, Goal, Stance};
 pub use knot::KNOT;
+pub use limit::{Limit, LimitViolation};
 pub use pattern_generator::PatternGenerator;
 pub use uncompensated_gait::UncompensatedGait;
 

@@ -152,6 +152,28 @@ impl PatternGenerator {
         (is_same_half_step && is_rested).then(|| self.plan.knots_left())
     }
 
+    /// Goes to the next knot, whatever the time until then: a speed that is not planned yet counts as none.
+    pub(crate) fn advance_to_next_knot(&mut self) {
+        self.execution.playback.cancel_speed_override();
+        self.plan_knot();
+        self.seek(0.0);
+    }
+
+    /// Goes to a share of the time from the present knot to the next, which both are planned.
+    pub(crate) fn seek(&mut self, share: f64) {
+        self.execution.playback.seek(share);
+    }
+
+    /// Whether the support changes near the present knot.
+    pub(crate) fn is_near_support_change(&self) -> bool {
+        self.execution.playback.is_near_support_change()
+    }
+
+    /// Share of the time from the present knot to the next at which the support changes, if it does.
+    pub(crate) fn share_at_support_change(&self) -> Option<f64> {
+        self.execution.playback.share_at_support_change()
+    }
+
     /// Plans and realises one more knot.
     fn plan_knot(&mut self) {
         let Self { model, plan, execution } = self;

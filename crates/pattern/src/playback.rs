@@ -55,6 +55,24 @@ impl Playback {
         passes
     }
 
+    /// Goes to a share of the time from the second knot to the third.
+    pub(crate) fn seek(&mut self, share: f64) {
+        self.elapsed = KNOT * share;
+    }
+
+    /// Whether the support changes between any two of the four knots.
+    pub(crate) fn is_near_support_change(&self) -> bool {
+        let [before, .., after] = &self.knots;
+        after.phase.floor() > before.phase
+    }
+
+    /// Share of the time from the second knot to the third at which the support changes, if it does.
+    pub(crate) fn share_at_support_change(&self) -> Option<f64> {
+        let [_, from, to, _] = &self.knots;
+        let landing = to.phase.floor();
+        (landing > from.phase).then(|| (landing - from.phase) / (to.phase - from.phase))
+    }
+
     /// Time since the second knot (s).
     pub(crate) fn elapsed(&self) -> f64 {
         self.elapsed

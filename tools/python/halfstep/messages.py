@@ -65,6 +65,10 @@ class Reason(IntEnum):
     FAULTED = 20  # a fault is latched: send reset
     FAULT_PERSISTS = 21  # the fault persists: the robot must be upright and sending measurements
     EXPIRED = 22  # it expired before it could take effect
+    FRICTION = 22  # the support sole would slip
+    YAW_TORQUE = 23  # the support sole would turn on the ground
+    NOTHING_TO_RESET = 24  # no fault is latched: there is nothing to reset
+    IN_PLACE = 25  # in place the robot steps without extension and at most at speed 1: it takes effect once it walks
 
 
 class Mode(IntEnum):

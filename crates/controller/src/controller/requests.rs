@@ -1,7 +1,7 @@
 //! Requests to the controller, between its ticks: decided at once, or by an admission job.
 
 use interface::{ActiveLimit, ControlAuthority, Fault, GaitChange, Intent, Objection, Reason, Reply, Request, Verdict};
-use pattern::{Gait, Stance};
+use pattern::{Gait, GaitPhase, Stance};
 
 use super::Controller;
 use super::robot_posture::STAND_TOLERANCE;
@@ -29,7 +29,8 @@ impl Controller {
         } else if authority.is_some() && !request.is_stop() {
             self.admission.reply(Reply { authority, ..self.refused(Reason::Outranked) });
         } else if request.intent == Some(Intent::Reset) {
-            let objection = self.state.latched().and_then(|_| self.objection_to_reset());
+            let nothing = Objection { reason: Reason::NothingToReset, active_limit: None };
+            let objection = self.state.latched().map_or(Some(nothing), |_| self.objection_to_reset());
             if objection.is_none() {
                 self.reset();
             }
@@ -39,8 +40,9 @@ impl Controller {
             ));
         } else if self.state.has_fallen() {
             self.admission.reply(self.refused(Reason::Fallen));
-        } else if request.is_urgent() {
-            // A heartbeat; or a stop of a faulted robot, which stands already or is about to.
+        } else if request.is_stop() {
+            self.admission.reply(self.stopped_by_fault(request));
+        } else if request.is_empty() {
             self.admission.reply(self.unchanged());
         } else if self.state.latched().is_some() {
             self.admission.reply(self.refused(Reason::Faulted));
@@ -64,6 +66,18 @@ impl Controller {
         } else {
             self.evaluate(&Request { intent: None, ..*request });
         }
+    }
+
+    /// The reply to a stop of a robot that a fault has stopped: it stands already or is about to, but moves no foot for
+    /// another stance and takes no gait parameters.
+    fn stopped_by_fault(&self, request: &Request) -> Reply {
+        let stands_parallel = self.pattern.gait().phase() == GaitPhase::Standing(Stance::Parallel);
+        let stays_in_stride =
+            request.intent == Some(Intent::Stop) && self.state.intent() == Intent::Hold && !stands_parallel;
+        if stays_in_stride || request.gait != GaitChange::NONE {
+            return Reply { verdict: Verdict::Limited, reason: Reason::Faulted, ..self.unchanged() };
+        }
+        self.unchanged()
     }
 
     /// The admission job that is to be evaluated, if there is one. Until it is [completed](Self::complete) no other

@@ -85,7 +85,7 @@ mod tests {
     /// A knee that swings by 0.3 rad at 2 Hz and follows its setpoint.
     fn swinging(time: f64) -> (Setpoint, Measurement) {
         let omega = std::f64::consts::TAU * 2.0;
-        let at = |value: f64| PerJoint::from_fn(|joint| if joint == Joint::LeftKnee { value } else { 0.0 });
+        let at = |value: f64| model::PerJoint::from_fn(|joint| if joint == Joint::LeftKnee { value } else { 0.0 });
         let (angles, rates) = (at(0.3 * (omega * time).sin()), at(0.3 * omega * (omega * time).cos()));
         let setpoint = Setpoint { angles, rates, feed_forward: JointVector::ZERO };
         let sample = Measurement {
