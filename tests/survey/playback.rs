@@ -95,7 +95,7 @@ impl Playback {
         self.feedback.update(&BalanceState::planned(&self.plan), Some(&sensed), false, PERIOD);
         self.since_support_change += PERIOD;
         if self.walk.advance(PERIOD) {
-            self.feedback.change_support(self.walk.mirror());
+            self.feedback.change_support(self.walk.mirror(), Vector2::x());
             self.since_support_change = 0.0;
         }
 

@@ -10,7 +10,7 @@ use gait::{NominalTable, Start, Walk, WalkError};
 use interface::{
     AddedAngles, Fault, Faults, Intent, LatchedFault, Measurement, Mode, Reason, Rejection, Reply, Report, Setpoint,
 };
-use model::{ComState, JointVector, Mechanism, Motion};
+use model::{ComState, JointVector, Mechanism, Motion, Side};
 use nalgebra::Vector2;
 use pattern::{FeasibilityCheck, GaitPhase, PatternGenerator, Stance};
 use stabilizer::{
@@ -351,7 +351,10 @@ impl Controller {
         let gait = self.pattern.gait_mut();
         if gait.advance(dt) {
             let mirror = gait.walk().mirror();
-            self.feedback.change_support(mirror);
+            // The swing foot as it landed: the reference is still that of the tick before.
+            let landed = self.reference.kinematics().rotation[Mechanism::foot(Side::Left)];
+            let heading = landed.column(0).xy().try_normalize(f64::EPSILON).unwrap_or_else(Vector2::x);
+            self.feedback.change_support(mirror, heading);
             self.landing.change_support(mirror);
             self.zmp_estimator.change_support(mirror);
             self.last_com = None;

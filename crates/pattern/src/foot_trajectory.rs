@@ -23,6 +23,9 @@ pub(crate) struct FootTrajectory {
     hips: HipHeight,
 }
 
+/// The slowest walk that the limits of a gait can permit.
+const SPEED_MIN: f64 = 0.05;
+
 const PELVIS: Joint = Leg(Side::Right).end();
 
 impl FootTrajectory {
@@ -46,7 +49,7 @@ impl FootTrajectory {
         }
         if event == FootstepEvent::SupportChange {
             let walk = &footsteps.walk;
-            let speed = walk.speed().target().min(walk.speed().state().value);
+            let speed = walk.speed().target().min(walk.speed().state().value).max(SPEED_MIN);
             let half_duration = 0.5 * walk.table().duration / speed / model.lipm_residual.height_over_gravity.sqrt();
             let swing_sole = |progress| swing.at(progress, &footsteps.swing_sole(model, progress));
             hips.begin_half_step(half_duration, swing_sole);
@@ -62,7 +65,7 @@ impl FootTrajectory {
     ///
     /// * `offset` – from the planned place, in support coordinates (m)
     pub(crate) fn adjust_step(&mut self, model: &PatternModel, offset: Vector2<f64>) -> bool {
-        if !self.is_worth_adjusting(model, offset) {
+        if !self.is_worth_adjusting(model, offset, 0) {
             return false;
         }
         let offset = self.within_reach(model, offset);
@@ -73,12 +76,19 @@ impl FootTrajectory {
         true
     }
 
-    /// Whether [`adjust_step`](Self::adjust_step) would change anything.
-    pub(crate) fn is_worth_adjusting(&self, model: &PatternModel, offset: Vector2<f64>) -> bool {
+    /// Whether [`adjust_step`](Self::adjust_step) would change anything so many knots from now.
+    pub(crate) fn is_worth_adjusting(&self, model: &PatternModel, offset: Vector2<f64>, knots: u32) -> bool {
         let change = (self.within_reach(model, offset) - self.adjustment.target()).amax();
         change > model.proportions.step_adjustment_change_min
             && self.footsteps.gait_state.is_stepping()
-            && StepAdjustment::is_in_time(self.footsteps.walk.half_step().progress)
+            && StepAdjustment::is_in_time(self.progress_in(knots))
+    }
+
+    /// Progress of the half-step so many knots from now, at the present speed.
+    fn progress_in(&self, knots: u32) -> f64 {
+        let walk = &self.footsteps.walk;
+        let per_knot = KNOT * walk.speed().state().value / walk.table().duration;
+        walk.half_step().progress + f64::from(knots) * per_knot
     }
 
     /// Where the swing foot would land without adjustment (m).

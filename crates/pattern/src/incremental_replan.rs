@@ -72,8 +72,7 @@ impl IncrementalReplan {
         };
         self.foot_trajectory.clone_from(feet);
         self.dynamics_filter.clone_from(filter);
-        // Half a knot suffices to plan all of it.
-        let knots = if elapsed > KNOT / 2.0 { 2 } else { 1 };
+        let knots = Self::knots_until_takeover(elapsed);
         for _ in 0..knots {
             if self.foot_trajectory.advance(model) {
                 // The foot has landed meanwhile.
@@ -88,6 +87,14 @@ impl IncrementalReplan {
         self.dynamics_filter.restart(model, &self.foot_trajectory);
         self.knots_left = knots;
         true
+    }
+
+    /// Knots until a change that is commanded now takes over.
+    ///
+    /// * `elapsed` – time since the present knot (s)
+    pub(crate) fn knots_until_takeover(elapsed: f64) -> u32 {
+        // Half a knot suffices to plan all of it.
+        if elapsed > KNOT / 2.0 { 2 } else { 1 }
     }
 
     /// Plans a part of it.

@@ -295,7 +295,7 @@ impl Gait for PatternGenerator {
     fn adjust_step(&mut self, error: Vector2<f64>) {
         let change = PlanChange { goal: None, step_offset: Some(error) };
         if self.knots_until_touchdown().is_some()
-            && self.plan.is_worth_adjusting(&self.model, error)
+            && self.plan.is_worth_adjusting(&self.model, error, self.execution.playback.elapsed())
             && self.replan_soon(change)
         {
             self.execution.knots_since_adjustment = 0;

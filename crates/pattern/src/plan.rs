@@ -121,9 +121,12 @@ impl Plan {
         self.foot_trajectory.knots_left()
     }
 
-    /// Whether another offset of the landing is worth planning (m).
-    pub(crate) fn is_worth_adjusting(&self, model: &PatternModel, offset: Vector2<f64>) -> bool {
-        self.foot_trajectory.is_worth_adjusting(model, offset)
+    /// Whether another offset of the landing (m) is worth planning, and in time once it is planned.
+    ///
+    /// * `elapsed` – time since the present knot (s)
+    pub(crate) fn is_worth_adjusting(&self, model: &PatternModel, offset: Vector2<f64>, elapsed: f64) -> bool {
+        let knots = IncrementalReplan::knots_until_takeover(elapsed);
+        self.foot_trajectory.is_worth_adjusting(model, offset, knots)
     }
 
     /// Plans a change over the coming ticks. Returns whether there is anything to change.

@@ -127,22 +127,27 @@ impl DcmFeedback {
         // Without DCM feedback the ZMP would be held while the centre of mass runs away from it.
         let Some(error) = zmp_error.filter(|_| self.parameters.gain > 0.0) else { return };
         let max = self.proportions.foot_damping_zmp_shift_max;
-        let damping = self.foot_damping + error * (dt / self.parameters.foot_damping_time_constant);
+        // However long the period was, the error is taken back once.
+        let damping = self.foot_damping + error * (dt / self.parameters.foot_damping_time_constant).min(1.0);
         self.foot_damping = damping.map(|shift| shift.clamp(-max, max));
     }
 
     /// Expresses everything in support coordinates of the other foot, which supports from now on: the offsets of the
     /// support ankle are now those of the swing ankle.
-    pub fn change_support(&mut self, mirror: &Mirror) {
+    ///
+    /// * `heading` – of the new support foot against the former one: a unit vector in its coordinates
+    pub fn change_support(&mut self, mirror: &Mirror, heading: Vector2<f64>) {
         self.offsets = self.offsets.mirrored(mirror);
         self.lean = Vector2::zeros();
         self.foot_damping = Vector2::zeros();
-        self.step_error = self.step_error.map(|error| Vector2::new(error.x, -error.y));
+        let aside = Vector2::new(-heading.y, heading.x);
+        self.step_error = self.step_error.map(|error| Vector2::new(heading.dot(&error), -aside.dot(&error)));
     }
 
     /// Lets the lean fade: no foot is in contact, or no good measurement is known.
     pub fn release(&mut self) {
         self.lean = Vector2::zeros();
+        self.foot_damping = Vector2::zeros();
     }
 
     /// The shift of the desired ZMP (m): proportional to the error, and never beyond the sole.
@@ -300,5 +305,43 @@ mod tests {
             zmp = shifted + Vector2::new(-lean.y, lean.x) / feedback.lean_per_shift;
         }
         assert!(zmp.norm() < 1e-3, "{zmp}");
+    }
+
+    #[test]
+    fn foot_damping_takes_an_error_back_once_however_long_the_period() {
+        let mut feedback = feedback();
+        let zmp = Some(Vector2::new(-0.1, 0.03));
+        for dt in [0.03, 0.1, 1.0] {
+            feedback.release();
+            feedback.update(&at(0.0, 0.0), Some(&BalanceState { zmp, ..at(0.0, 0.0) }), false, dt);
+            let shift = Vector2::new(-feedback.lean().y, feedback.lean().x) / feedback.lean_per_shift;
+            assert!((shift + zmp.unwrap()).norm() < 1e-9, "{dt} s: {shift}");
+        }
+    }
+
+    #[test]
+    fn released_feedback_keeps_no_lean() {
+        let mut feedback = feedback();
+        let zmp = Some(Vector2::new(-0.1, 0.03));
+        feedback.update(&at(0.0, 0.0), Some(&BalanceState { zmp, ..at(0.0, 0.0) }), false, 1e-3);
+        feedback.release();
+        assert_eq!(feedback.lean(), Vector2::zeros());
+        feedback.update(&at(0.0, 0.0), Some(&at(0.0, 0.0)), false, 1e-3);
+        assert_eq!(feedback.lean(), Vector2::zeros());
+    }
+
+    /// The oracle: the same vector of the floor, seen from a right foot, and from a left one that has landed turned.
+    #[test]
+    fn error_keeps_its_direction_over_a_support_change_onto_a_turned_foot() {
+        let mut feedback = feedback();
+        for _ in 0..1000 {
+            feedback.update(&at(0.0, 0.0), Some(&at(0.08, 0.02)), false, 1e-3);
+        }
+        let before = feedback.step_error.value();
+        let turn = nalgebra::Rotation2::new(0.5);
+        feedback.change_support(&Mirror::new(&mechanism()).unwrap(), turn * Vector2::x());
+        let after = feedback.step_error.value();
+        let seen_from_the_left = Vector2::new(after.x, -after.y);
+        assert!((turn * seen_from_the_left - before).norm() < 1e-12, "{before} {after}");
     }
 }
