@@ -40,3 +40,26 @@ fn a_loop_that_stalls_comes_to_a_stand_and_one_late_for_a_moment_walks_on() {
     assert!(summary["deadline_misses"].as_u64().unwrap() > 0, "{summary}");
     assert_eq!(summary["mode"], "walking", "{summary}");
 }
+
+#[test]
+fn a_side_that_is_halted_for_two_seconds_ends_in_a_stand_or_in_a_fall_that_is_noticed() {
+    let _alone = alone();
+    for halted in ["controller", "plant"] {
+        let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
+        let controller = command_line.start_here("controller --for 6s --json");
+        command_line.wait_for_controller();
+        let plant = command_line.start_here("plant --for 6s --json");
+        std::thread::sleep(Duration::from_millis(700));
+        (if halted == "controller" { &controller } else { &plant }).halt_for(Duration::from_secs(2));
+        let [plant, controller] = [plant, controller].map(|process| {
+            let ended = process.finish();
+            serde_json::from_str::<Value>(&ended.stdout).unwrap_or_else(|error| panic!("{error}: {}", ended.stderr))
+        });
+        let mode = controller["mode"].as_str().unwrap();
+        if plant["fell_at_s"].is_null() {
+            assert_ne!(mode, "walking", "{halted}: {controller} {plant}");
+        } else {
+            assert!(["fallen", "faulted"].contains(&mode), "{halted}: {controller} {plant}");
+        }
+    }
+}

@@ -63,7 +63,7 @@ fn walk(ticks: u64) -> [Happened; 2] {
             let ControllerPorts { mut setpoints, measurements, requests, reports } = of_controller;
             let parameters = controller_parameters();
             let controller = Controller::new(mechanism, table, &parameters, Start::default()).unwrap();
-            let worker = ClockedWorker::new(timing.clock, Scheduling::default());
+            let worker = ClockedWorker::new(timing.clock, Scheduling::default()).unwrap();
             let mut driver = Driver { controller, worker };
             let (mut recorder, recorder_thread) =
                 recorder::of_controller(timing.clock, timing.rate, None, reports, Announced::Faults).unwrap();

@@ -10,9 +10,14 @@ use halfstep_tests::{python, repository};
 use crate::alone;
 
 /// A script of `tools/python/examples`, run to its end.
-fn run(mut python: Command, example: &str, instance: &str) -> Output {
-    let tools = repository().join("tools/python");
-    python.arg(tools.join("examples").join(example)).arg(instance).env("PYTHONPATH", &tools);
+fn run(mut python: Command, example: &str, command_line: &CommandLine) -> Output {
+    python.arg(repository().join("tools/python/examples").join(example)).arg(command_line.instance());
+    output(&mut python, command_line)
+}
+
+/// A Python program with the package, run to its end.
+fn output(python: &mut Command, command_line: &CommandLine) -> Output {
+    python.env("PYTHONPATH", repository().join("tools/python")).env("XDG_RUNTIME_DIR", command_line.runtime_folder());
     python.output().expect("Python")
 }
 
@@ -29,7 +34,7 @@ fn a_python_script_streams_commands() {
     let controller = command_line.start_here("controller");
     let plant = command_line.start_here("plant");
     command_line.wait_for_controller();
-    let told = run(python, "stream.py", command_line.instance());
+    let told = run(python, "stream.py", &command_line);
     assert!(told.status.success(), "{}", text(&told.stderr));
     let lines = text(&told.stdout);
     assert_eq!(lines.matches("ACCEPTED").count(), 4, "{lines}");
@@ -58,8 +63,7 @@ for report in observer.reports(silence_max_s=30.0):
         break
 print('stands')
 ";
-    let tools = repository().join("tools/python");
-    let told = python.args(["-c", program, command_line.instance()]).env("PYTHONPATH", tools).output().expect("Python");
+    let told = output(python.args(["-c", program, command_line.instance()]), &command_line);
     assert!(told.status.success(), "{}", text(&told.stderr));
     assert_eq!(text(&told.stdout), "ACCEPTED\nstands\n");
     plant.end();
@@ -73,7 +77,7 @@ fn a_python_script_is_a_plant() {
     let python = python();
     let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
     let controller = command_line.start_here("controller --lockstep --for 5s");
-    let told = run(python, "kinematic_plant.py", command_line.instance());
+    let told = run(python, "kinematic_plant.py", &command_line);
     assert!(told.status.success(), "{}", text(&told.stderr));
     assert!(text(&told.stdout).contains("5000 ticks"), "{}", text(&told.stdout));
     let ended = controller.finish();
@@ -89,10 +93,39 @@ fn a_python_plant_for_another_robot_is_refused() {
     let controller = command_line.start_here("controller");
     command_line.wait_for_controller();
     let program = "import sys, halfstep; halfstep.Plant(0x1234, sys.argv[1])";
-    let tools = repository().join("tools/python");
-    let told = python.args(["-c", program, command_line.instance()]).env("PYTHONPATH", tools).output().expect("Python");
+    let told = output(python.args(["-c", program, command_line.instance()]), &command_line);
     let said = text(&told.stderr);
     assert!(said.contains("Mismatch") && said.contains("0x0000000000001234"), "{said}");
     assert!(said.contains(&format!("{:#018x}", halfstep_tests::mechanism().fingerprint)), "{said}");
+    controller.end();
+}
+
+#[test]
+#[ignore = "needs Python packages: see docs/contributing.md"]
+fn a_python_program_stops_the_robot_when_all_places_are_taken() {
+    let _alone = alone();
+    let mut python = python();
+    let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
+    let program = "
+import sys
+from halfstep import NoController, Operator, stop
+try:
+    stop(sys.argv[1])
+except NoController:
+    print('nobody')
+";
+    let told = output(python.args(["-c", program, command_line.instance()]), &command_line);
+    assert_eq!(text(&told.stdout), "nobody\n", "{}", text(&told.stderr));
+
+    let controller = command_line.start_here("controller");
+    let plant = command_line.start_here("plant");
+    command_line.wait_for_controller();
+    let connect = || wire::OperatorPorts::connect(command_line.wire_instance());
+    let _places: Vec<_> = (0..wire::MAX_OPERATORS).map(|_| connect().unwrap()).collect();
+    let program = "import sys, halfstep; print(halfstep.stop(sys.argv[1]).verdict.name)";
+    let mut again = halfstep_tests::python();
+    let told = output(again.args(["-c", program, command_line.instance()]), &command_line);
+    assert_eq!(text(&told.stdout), "ACCEPTED\n", "{}", text(&told.stderr));
+    plant.end();
     controller.end();
 }

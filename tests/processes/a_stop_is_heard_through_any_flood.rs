@@ -36,8 +36,8 @@ const FLOODS: &[Flood] = &[
 ];
 
 /// Sends as many requests as the service takes, until `ends`.
-fn flood(instance: &str, message: fn(u64) -> RequestMessage, ends: &AtomicBool) {
-    let operator = OperatorPorts::connect(&Instance::new(instance).unwrap()).unwrap();
+fn flood(instance: &Instance, message: fn(u64) -> RequestMessage, ends: &AtomicBool) {
+    let operator = OperatorPorts::connect(instance).unwrap();
     let mut unanswered: Vec<PendingReply> = Vec::new();
     let mut n = 0;
     while !ends.load(Ordering::Relaxed) {
@@ -59,7 +59,7 @@ fn pair(command_line: &CommandLine) -> [Running; 2] {
 fn a_stop_is_answered_and_walked_during_every_kind_of_flood() {
     let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
     let _pair = pair(&command_line);
-    let operator = OperatorPorts::connect(&Instance::new(command_line.instance()).unwrap()).unwrap();
+    let operator = OperatorPorts::connect(command_line.wire_instance()).unwrap();
     let ask = |intent| {
         let request = Request { intent: Some(intent), ..Request::new(Source::Console) };
         operator.requests.ask(&(&request).into(), SAFETY).unwrap().checked().unwrap()
@@ -69,7 +69,7 @@ fn a_stop_is_answered_and_walked_during_every_kind_of_flood() {
         let ends = AtomicBool::new(false);
         std::thread::scope(|scope| {
             for _ in 0..3 {
-                scope.spawn(|| flood(command_line.instance(), *message, &ends));
+                scope.spawn(|| flood(command_line.wire_instance(), *message, &ends));
             }
             std::thread::sleep(Duration::from_millis(300));
             for intent in [Intent::Stop, Intent::Hold, Intent::Stop] {
@@ -85,8 +85,8 @@ fn a_stop_is_answered_and_walked_during_every_kind_of_flood() {
 fn every_request_is_answered_however_many_arrive_at_once() {
     let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
     let _pair = pair(&command_line);
-    let instance = Instance::new(command_line.instance()).unwrap();
-    let operators: Vec<OperatorPorts> = (0..6).map(|_| OperatorPorts::connect(&instance).unwrap()).collect();
+    let instance = command_line.wire_instance();
+    let operators: Vec<OperatorPorts> = (0..6).map(|_| OperatorPorts::connect(instance).unwrap()).collect();
     let invalid = RequestMessage { speed: f64::NAN, ..RequestMessage::from(&request(speed(1.0), None)) };
     let sent: Vec<Vec<PendingReply>> = operators
         .iter()
@@ -106,9 +106,9 @@ fn requests_of_an_operator_that_has_gone_are_not_carried_out() {
     // Without a plant nothing ticks, so that nothing is answered.
     let controller = command_line.start_here("controller --from-stand");
     command_line.wait_for_controller();
-    let instance = Instance::new(command_line.instance()).unwrap();
+    let instance = command_line.wire_instance();
     let walk = Request { intent: Some(Intent::Walk), ..Request::new(Source::Console) };
-    let operator = OperatorPorts::connect(&instance).unwrap();
+    let operator = OperatorPorts::connect(instance).unwrap();
     drop(operator.requests.send(&(&walk).into()).unwrap());
     drop(operator);
     std::thread::sleep(Duration::from_millis(500));

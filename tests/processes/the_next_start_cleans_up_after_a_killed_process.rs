@@ -31,10 +31,10 @@ fn a_controller_replaces_a_killed_one_while_the_plant_waits() {
     assert!(nobody.stderr.starts_with("no controller is running on instance"), "{}", nobody.stderr);
 
     // The plant still waits for the dead controller's next setpoint; the next controller takes its place.
-    let next = command_line.start_here("controller");
+    let next = command_line.start_here("controller --lockstep");
     command_line.wait_for_controller();
     plant.kill();
-    let plant = command_line.start_here("plant --for 1s").finish();
+    let plant = command_line.start_here("plant --lockstep --for 1s").finish();
     assert_eq!(plant.code, Some(0), "{}", plant.stderr);
     let next = next.end();
     assert_eq!(next.code, Some(0), "{}", next.stderr);

@@ -2,6 +2,7 @@
 
 use std::fs::{self, File};
 use std::io::Write;
+use std::os::unix::fs::DirBuilderExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -13,6 +14,8 @@ use wire::{Instance, Leftovers, OperatorPorts};
 /// Nothing here takes so long; whatever does hangs.
 const SAFETY: Duration = Duration::from_secs(60);
 const GLANCE: Duration = Duration::from_millis(5);
+/// Name of the runtime folder, which holds the files of instances.
+const RUNTIME: &str = "runtime";
 
 /// A folder to type commands in, and an instance to talk to.
 pub struct CommandLine {
@@ -45,8 +48,11 @@ impl CommandLine {
     pub fn new(binary: &str) -> Self {
         static COUNT: AtomicU32 = AtomicU32::new(0);
         let name = format!("test-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
-        let instance = Instance::new(&name).expect("a good name");
         let folder = tempfile::tempdir().expect("a temporary folder");
+        // A runtime folder of its own: no other test sweeps what killed processes leave here, or sees it.
+        let runtime = folder.path().join(RUNTIME);
+        fs::DirBuilder::new().mode(0o700).create(&runtime).expect("an empty folder");
+        let instance = Instance::new_in(&name, &runtime).expect("a good name");
         let config = folder.path().join("config");
         fs::create_dir(&config).expect("an empty folder");
         for file in fs::read_dir(crate::repository().join("config")).expect("the committed configuration") {
@@ -63,6 +69,16 @@ impl CommandLine {
     /// The instance's name.
     pub fn instance(&self) -> &str {
         self.instance.name().as_str()
+    }
+
+    /// The instance, to connect to.
+    pub fn wire_instance(&self) -> &Instance {
+        &self.instance
+    }
+
+    /// The folder in which the processes keep the files of instances: their `$XDG_RUNTIME_DIR`.
+    pub fn runtime_folder(&self) -> PathBuf {
+        self.folder().join(RUNTIME)
     }
 
     /// The folder.
@@ -115,6 +131,7 @@ impl CommandLine {
             .args(words.split_whitespace())
             .current_dir(self.folder())
             .env_remove("RUST_LOG")
+            .env("XDG_RUNTIME_DIR", self.runtime_folder())
             .stdin(Stdio::piped())
             .stdout(stdout)
             .stderr(stderr)
@@ -179,9 +196,14 @@ impl Running {
 
     /// Asks it to end, as Ctrl-C does, and waits until it has.
     pub fn end(self) -> Ended {
-        rustix::process::kill_process(rustix::process::Pid::from_child(&self.child), rustix::process::Signal::TERM)
-            .expect("it is still there");
+        self.ask_to_end();
         self.finish()
+    }
+
+    /// Asks it to end, as Ctrl-C does.
+    pub fn ask_to_end(&self) {
+        rustix::process::kill_process(rustix::process::Pid::from_child(&self.child), rustix::process::Signal::TERM)
+            .expect("a child that was not waited for");
     }
 
     /// Halts it, as a debugger does, and lets it go on after a while.
@@ -190,6 +212,16 @@ impl Running {
         rustix::process::kill_process(pid, rustix::process::Signal::STOP).expect("it is still there");
         std::thread::sleep(time);
         rustix::process::kill_process(pid, rustix::process::Signal::CONT).expect("it is still there");
+    }
+
+    /// Whether it still runs.
+    pub fn is_running(&mut self) -> bool {
+        matches!(self.child.try_wait(), Ok(None))
+    }
+
+    /// Id of its process.
+    pub fn id(&self) -> u32 {
+        self.child.id()
     }
 
     /// Kills it; it has no chance to clean up.

@@ -52,10 +52,12 @@ pub const FILES: Restriction<'_> = Restriction {
         ("crates/record/src/", "recordings"),
         ("crates/runtime/src/scheduling.rs", "the cores that the system offers"),
         ("crates/wire/src/connect_lock.rs", "the lock file"),
-        ("crates/wire/src/instance.rs", "files left behind by a killed process"),
+        ("crates/wire/src/leftovers.rs", "files left behind by a killed process"),
         ("crates/wire/src/running.rs", "the folders of all instances"),
         ("crates/wire/src/runtime_folder.rs", "the folder of all instances"),
         ("crates/wire/src/service_contract.rs", "files left behind by a killed process"),
+        ("crates/wire/src/shared_memory.rs", "the files of an instance in shared memory"),
+        ("crates/wire/src/urgent_socket.rs", "the socket file"),
     ],
 };
 
@@ -75,6 +77,7 @@ pub const THREADS: Restriction<'_> = Restriction {
         ("crates/cli/src/command/bench.rs", "measures on a thread with a large stack"),
         ("crates/cli/src/command/stream.rs", "reads lines while replies arrive"),
         ("crates/node/src/admission_worker.rs", "evaluates requests beside the loop"),
+        ("crates/node/src/engine/external_engine.rs", "reads what the engine writes"),
         ("crates/node/src/request_bridge.rs", "exchanges requests and replies beside the loop"),
         ("crates/runtime/src/journal.rs", "writes beside the loop"),
     ],

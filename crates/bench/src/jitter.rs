@@ -177,10 +177,10 @@ fn our_loop(length: Duration, spin: Duration, periods: u64, series: &mut Series)
     while waited < periods {
         let wake = period.wait();
         // A loop that misses deadlines was late for each of them.
-        for missed in (0..=wake.missed).rev() {
+        for missed in (0..=wake.skipped).rev() {
             series.add(wake.late_ns as f64 + missed as f64 * length.as_nanos() as f64);
         }
-        waited += 1 + wake.missed;
+        waited += 1 + wake.skipped;
     }
     Usage::of_this_thread().since(began).cpu_ns as f64 / (now_ns() - began_ns) as f64
 }

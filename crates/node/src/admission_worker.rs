@@ -8,6 +8,7 @@ use crossbeam::channel::{Receiver, Sender, bounded};
 use runtime::Scheduling;
 
 use crate::cycle::Clock;
+use crate::error::NodeError;
 
 /// Evaluates admission jobs by the clock of the process.
 pub enum ClockedWorker {
@@ -29,10 +30,13 @@ pub struct AdmissionThread {
 
 impl ClockedWorker {
     /// A worker for a clock. A thread asks the system for `scheduling` and runs on with whatever it is granted.
-    pub fn new(clock: Clock, scheduling: Scheduling) -> Self {
+    ///
+    /// # Errors
+    /// The operating system refused another thread.
+    pub fn new(clock: Clock, scheduling: Scheduling) -> Result<Self, NodeError> {
         match clock {
-            Clock::Lockstep => ClockedWorker::Inline(InlineWorker),
-            Clock::Realtime => ClockedWorker::Threaded(AdmissionThread::start(scheduling)),
+            Clock::Lockstep => Ok(ClockedWorker::Inline(InlineWorker)),
+            Clock::Realtime => AdmissionThread::start(scheduling).map(ClockedWorker::Threaded),
         }
     }
 }
@@ -47,19 +51,36 @@ impl AdmissionWorker for ClockedWorker {
 }
 
 impl AdmissionThread {
-    fn start(scheduling: Scheduling) -> Self {
+    fn start(scheduling: Scheduling) -> Result<Self, NodeError> {
         let (jobs, incoming) = bounded::<Box<AdmissionJob>>(1);
         let (outgoing, evaluated) = bounded(1);
-        let thread = std::thread::spawn(move || {
-            let _granted = scheduling.request();
-            for mut job in incoming {
-                job.evaluate();
-                if outgoing.send(job).is_err() {
-                    break;
+        let thread = std::thread::Builder::new()
+            .name("admission".to_owned())
+            .spawn(move || {
+                let _died = TellDeath;
+                let _granted = scheduling.request();
+                for mut job in incoming {
+                    job.evaluate();
+                    if outgoing.send(job).is_err() {
+                        break;
+                    }
                 }
-            }
-        });
-        Self { jobs: Some(jobs), evaluated, thread: Some(thread) }
+            })
+            .map_err(NodeError::Thread)?;
+        Ok(Self { jobs: Some(jobs), evaluated, thread: Some(thread) })
+    }
+}
+
+/// Tells when the thread ends by a panic.
+struct TellDeath;
+
+impl Drop for TellDeath {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            tracing::error!(
+                "the thread that evaluates requests has died: only stop and hold are answered; restart the controller"
+            );
+        }
     }
 }
 

@@ -71,7 +71,7 @@ mod tests {
             faults: Faults::default(),
         };
         let (setpoint, command) = (Setpoint::default(), Command::NOMINAL);
-        Tick { setpoint, report, command, reply: None, superseded: None, latched }
+        Tick { setpoint, report, rejection: None, command, reply: None, superseded: None, latched }
     }
 
     #[test]

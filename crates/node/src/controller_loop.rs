@@ -7,6 +7,7 @@ use wire::{LatestWriter, MeasurementMessage, RequestMessage, SetpointMessage};
 
 use crate::cycle::{Cycles, PeerSilent};
 use crate::entry::{ControllerEntry, ControllerEvent};
+use crate::overload::Overload;
 use crate::recorder::Recorder;
 use crate::request_bridge::RequestId;
 use crate::request_queue::{DueRequest, RequestQueue};
@@ -33,8 +34,8 @@ pub struct ControllerRun {
 /// it ends no operator's stream.
 const HOLD: Request = Request { intent: Some(Intent::Hold), ..Request::new(Source::ControlLoop) };
 
-/// Runs until the cycles end. After `hold_after_misses` deadlines missed in a row the robot stops in stride; 0 is
-/// never.
+/// Runs until the cycles end. When `hold_after_misses` more deadlines were missed than kept, the robot stops in stride; 0
+/// is never.
 ///
 /// # Errors
 /// In lockstep no measurement has arrived for too long.
@@ -49,12 +50,14 @@ pub fn run_controller<W: AdmissionWorker>(
     let mut run = ControllerRun::default();
     let mut histogram = TimingHistogram::new();
     let mut must_hold = false;
+    let mut overload = Overload::new(hold_after_misses);
     while let Some(cycle) = cycles.wait(|| requests.collect(recorder))? {
         let time_ns = now_ns();
         run.missed += cycle.missed;
-        must_hold |= hold_after_misses > 0 && cycle.missed_in_a_row >= hold_after_misses;
+        must_hold |= overload.add(cycle.missed);
 
         requests.collect(recorder);
+        requests.await_script(cycle.tick, || cycles.is_interrupted(), recorder);
         let mut submitted = None;
         let step = driver.step(cycle.dt, Some(&cycle.message.measurement()), |urgent_only| {
             submitted = if std::mem::take(&mut must_hold) {

@@ -3,7 +3,7 @@
 //! * **realtime**: the first cycle begins with the other side's first message; from then on one begins per period, by
 //!   this process's own absolute deadlines, with the newest message there is. Missed periods are skipped as a whole:
 //!   the next cycle keeps the phase, covers their time as well, and reports how many they were, so that both sides
-//!   agree on the time.
+//!   agree on the time. The plant's deadlines lie half a period after the controller's ([`Cycles::following`]).
 //! * **lockstep**: cycle `k` begins with the other side's message of tick `k`, as soon as that arrives. The plant's
 //!   measurement 0 begins; the controller answers measurement `k` with setpoint `k`, the plant answers that with
 //!   measurement `k + 1`. So a run depends on nothing but its inputs.
@@ -14,14 +14,18 @@ use runtime::{Period, Rate, Wake, now_ns};
 use wire::{Latest, LatestReader};
 
 use crate::interrupt::Interrupt;
+use crate::phase::PhaseFollower;
 
-/// How long lockstep waits for a message of the other side.
+/// How long lockstep waits for a message of the other side. Time in which this process is halted does not count.
 const SILENCE_MAX: Duration = Duration::from_secs(30);
 /// How long a waiting process keeps its core: longer than a cycle of the other side takes. After that it yields the
 /// core, and at last it sleeps between two polls: waking up costs more than a whole lockstep cycle.
 const SPIN: Duration = Duration::from_micros(50);
 const YIELD: Duration = Duration::from_millis(2);
 const POLL_INTERVAL: Duration = Duration::from_micros(200);
+/// The most that one poll adds to the silence: a process that was away for longer had been halted, and perhaps the other
+/// one with it.
+const POLL_MAX: Duration = Duration::from_millis(20);
 /// Most time that one cycle makes up for: a process that was away for longer had been halted.
 const CATCH_UP_MAX: Duration = Duration::from_millis(100);
 
@@ -42,7 +46,7 @@ pub struct Cycles<M: Latest> {
     ticks: Option<u64>,
     next_tick: u64,
     period: Option<Period>,
-    missed_in_a_row: u64,
+    follower: Option<PhaseFollower>,
     interrupt: Interrupt,
 }
 
@@ -66,12 +70,10 @@ pub struct Cycle<M> {
     pub periods: u64,
     /// How much time the cycle covers (s).
     pub dt: f64,
-    /// How many deadlines were missed since the last cycle.
+    /// How many deadlines passed since the last cycle before the work was done.
     pub missed: u64,
     /// How long after its deadline the cycle began (ns); 0 in lockstep.
     pub late_ns: u64,
-    /// How many deadlines were missed since the last cycle that began in time.
-    pub missed_in_a_row: u64,
     /// The other side's newest message; in lockstep the one of this tick.
     pub message: M,
 }
@@ -112,7 +114,17 @@ impl<M: Latest> Cycles<M> {
         ticks: Option<u64>,
         interrupt: Interrupt,
     ) -> Self {
-        Self { timing, reader, peer, ticks, next_tick: 0, period: None, missed_in_a_row: 0, interrupt }
+        Self { timing, reader, peer, ticks, next_tick: 0, period: None, follower: None, interrupt }
+    }
+
+    /// The same with deadlines half a period after the other side's, so that its newest message is half a period old.
+    pub fn following(self) -> Self {
+        Self { follower: Some(PhaseFollower::default()), ..self }
+    }
+
+    /// Whether the process was asked to end.
+    pub fn is_interrupted(&self) -> bool {
+        self.interrupt.is_raised()
     }
 
     /// Control periods per second.
@@ -134,16 +146,23 @@ impl<M: Latest> Cycles<M> {
             (Clock::Realtime, None) => {
                 let first = self.wait_for_message(idle);
                 let CycleTiming { rate, spin, .. } = self.timing;
-                self.period = Some(Period::starting_now(rate.period()).with_spin(spin));
+                let period = match (&first, &self.follower) {
+                    (Ok(Some(cycle)), Some(_)) => PhaseFollower::first(rate.period(), cycle.message.time_ns()),
+                    _ => Period::starting_now(rate.period()),
+                };
+                self.period = Some(period.with_spin(spin));
                 first
             }
             (Clock::Realtime, Some(period)) => {
-                let Wake { missed, late_ns } = period.wait();
-                self.missed_in_a_row = if missed > 0 { self.missed_in_a_row + missed } else { 0 };
-                let periods = 1 + missed.min(catch_up_max(self.timing.rate));
+                let Wake { skipped, missed, late_ns } = period.wait();
+                let periods = 1 + skipped.min(catch_up_max(self.timing.rate));
+                let message = self.reader.latest();
+                if let (Some(follower), Some(message)) = (&mut self.follower, &message) {
+                    follower.follow(message.time_ns(), period);
+                }
                 self.next_tick += periods;
                 let tick = self.next_tick - 1;
-                let message = self.reader.latest().filter(|_| !self.is_over_at(tick));
+                let message = message.filter(|_| !self.is_over_at(tick));
                 Ok(message.map(|message| Cycle { missed, late_ns, ..self.cycle(tick, periods, message) }))
             }
         }
@@ -151,7 +170,7 @@ impl<M: Latest> Cycles<M> {
 
     fn cycle(&self, tick: u64, periods: u64, message: M) -> Cycle<M> {
         let dt = periods as f64 * self.timing.rate.period_s();
-        Cycle { tick, periods, dt, missed: 0, late_ns: 0, missed_in_a_row: self.missed_in_a_row, message }
+        Cycle { tick, periods, dt, missed: 0, late_ns: 0, message }
     }
 
     fn is_over(&self) -> bool {
@@ -165,6 +184,7 @@ impl<M: Latest> Cycles<M> {
     /// Waits for the message of the next tick; in real time for any message.
     fn wait_for_message(&mut self, mut idle: impl FnMut()) -> Result<Option<Cycle<M>>, PeerSilent> {
         let began = now_ns();
+        let (mut polled_at, mut silence) = (began, Duration::ZERO);
         let expected = self.next_tick;
         let is_realtime = self.timing.clock == Clock::Realtime;
         loop {
@@ -176,7 +196,9 @@ impl<M: Latest> Cycles<M> {
             if self.interrupt.is_raised() {
                 return Ok(None);
             }
-            let waited = Duration::from_nanos(now_ns() - began);
+            let now = now_ns();
+            let waited = Duration::from_nanos(now - began);
+            silence += Duration::from_nanos(now - std::mem::replace(&mut polled_at, now)).min(POLL_MAX);
             if waited < SPIN {
                 std::hint::spin_loop();
                 continue;
@@ -186,7 +208,7 @@ impl<M: Latest> Cycles<M> {
                 continue;
             }
             idle();
-            if self.timing.clock == Clock::Lockstep && waited > SILENCE_MAX {
+            if self.timing.clock == Clock::Lockstep && silence > SILENCE_MAX {
                 let last_received = newest.map(|message| message.tick());
                 return Err(PeerSilent { peer: self.peer, expected, last_received });
             }

@@ -17,6 +17,8 @@ pub mod entry;
 pub mod error;
 pub mod interrupt;
 mod nominal_check;
+mod overload;
+mod phase;
 pub mod plant_loop;
 pub mod realtime;
 pub mod recorder;

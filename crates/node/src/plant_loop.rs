@@ -36,6 +36,10 @@ pub struct PlantRun {
     pub fell_at: Option<u64>,
     /// What showed that the simulation had become unstable, which ended the run.
     pub unstable: Option<Instability>,
+    /// Control periods without a new setpoint.
+    pub setpoints_repeated: u64,
+    /// Setpoints that were replaced before the plant used them.
+    pub setpoints_lost: u64,
 }
 
 /// The loop's intervals in control periods.
@@ -75,7 +79,7 @@ pub fn run_plant(
     let initial = Setpoint { angles: plant.robot.angles, rates: plant.robot.rates, ..Setpoint::default() };
     let mut setpoint = initial;
     let mut is_held = true;
-    let mut began_ns = None;
+    let (mut began_ns, mut last_tick) = (None, None);
     let Intervals { truth_ticks, after_fall_ticks, begin_ticks } = Intervals::at(cycles.rate());
     let mut next_truth = truth_ticks;
     recorder.push(PlantEntry { tick: 0, angles: plant.robot.angles, truth: plant.truth() });
@@ -85,6 +89,11 @@ pub fn run_plant(
         let began_ns = *began_ns.get_or_insert_with(now_ns);
         run.missed += cycle.missed;
 
+        // A setpoint has the tick of the measurement that it answers.
+        if let Some(last) = last_tick.replace(cycle.message.tick) {
+            run.setpoints_repeated += u64::from(cycle.message.tick == last);
+            run.setpoints_lost += cycle.message.tick.saturating_sub(last).saturating_sub(cycle.periods);
+        }
         // An invalid setpoint is not obeyed: the drives keep the last one.
         if let Ok(valid) = cycle.message.checked() {
             setpoint = valid;

@@ -16,7 +16,7 @@ pub struct RealtimeParameters {
     pub rate: Rate,
     /// How long before a deadline a loop stops sleeping and waits actively.
     pub spin: Duration,
-    /// After how many missed deadlines in a row the controller stops the robot; 0 is never.
+    /// How many more deadlines must be missed than kept until the controller stops the robot; 0 is never.
     pub hold_after_misses: u64,
     /// Scheduling of the controller's loop.
     pub controller: Scheduling,

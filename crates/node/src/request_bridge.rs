@@ -126,6 +126,11 @@ impl RequestBridge {
         Ok(RequestBridge::Threaded { queues, thread })
     }
 
+    /// Whether the loop itself serves the operators: in lockstep.
+    pub fn is_inline(&self) -> bool {
+        matches!(self, RequestBridge::Inline(_))
+    }
+
     /// Receives what operators have sent, unless a thread does. Returns the most requests to take now.
     pub fn receive(&mut self) -> usize {
         match self {
@@ -196,14 +201,14 @@ impl RequestIo {
             // An operator whose memory cannot be reached has gone; the next call finds the others.
             let Some((message, answer)) = self.server.next_request().ok().flatten() else { break };
             let is_stop = message.checked().is_ok_and(|request| request.is_stop());
-            if !is_stop && self.others.len() >= BACKLOG {
+            let received = if is_stop { &mut self.stops } else { &mut self.others };
+            if received.len() >= BACKLOG {
                 // Only an operator that does not wait for its replies can send more. Dropping the answer tells it so.
                 continue;
             }
             let id = RequestId(self.last.0 + 1);
             self.last = id;
             self.unanswered.insert(id, answer);
-            let received = if is_stop { &mut self.stops } else { &mut self.others };
             received.push_back(IncomingRequest { id, message });
         }
         self.until_check -= 1;

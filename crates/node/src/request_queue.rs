@@ -5,10 +5,12 @@
 //! the place of an older one that it overrides. Requests that have expired are refused, and those of operators that
 //! have gone or no longer wait for the reply are dropped; a stop is carried out all the same.
 
+use std::time::Duration;
+
 use controller::Tick;
 use interface::{Command, Intent, LatchedFault, Lifetime, Mode, Reason, Reply, Request, Source, Verdict};
 use serde::{Deserialize, Serialize};
-use wire::{MessageFault, ReplyMessage, RequestMessage};
+use wire::{MAX_UNANSWERED, MessageFault, ReplyMessage, RequestMessage};
 
 use crate::entry::ControllerEvent;
 use crate::recorder::Recorder;
@@ -18,6 +20,9 @@ use crate::request_bridge::{IncomingRequest, RequestBridge, RequestId};
 pub const CAPACITY: usize = 256;
 /// Most stops that can wait; a later one takes the place of the last.
 const STOPS: usize = 16;
+/// Time between two looks for the next request of a script, and how many of them.
+const SCRIPT_NAP: Duration = Duration::from_micros(100);
+const SCRIPT_NAPS: u32 = 300_000;
 
 /// Requests on their way to the controller.
 pub struct RequestQueue {
@@ -32,6 +37,8 @@ pub struct RequestQueue {
     under_evaluation: Option<DueRequest>,
     /// The newest stop that was taken: older requests that arrive after it are refused.
     newest_stop: Option<RequestId>,
+    /// The tick from which on the next request of a script may be due, which is not here yet.
+    script_from: Option<u64>,
     /// The next tick.
     tick: u64,
     /// Whether a heartbeat was taken last: another request has its turn.
@@ -83,6 +90,7 @@ impl RequestQueue {
             scheduled: heapless::Vec::new(),
             under_evaluation: None,
             newest_stop: None,
+            script_from: None,
             tick: 0,
             took_heartbeat: false,
             in_force,
@@ -110,6 +118,9 @@ impl RequestQueue {
             Ok(request) => request,
             Err(reason) => return self.refuse(id, message.id, reason, recorder),
         };
+        if request.source == Source::Script && request.lifetime == Lifetime::Latched {
+            self.script_from = (message.present & RequestMessage::MORE != 0).then_some(request.not_before);
+        }
         let due = DueRequest { id, request };
         let is_due = request.not_before <= self.tick;
         if is_due && request.is_stop() {
@@ -137,6 +148,36 @@ impl RequestQueue {
                 self.refuse(id, request.id, Reason::QueueFull, recorder);
             }
         }
+    }
+
+    /// In lockstep: waits until the requests of a script have arrived that may be due at a tick, so that it does not
+    /// matter how fast they are sent.
+    pub fn await_script(
+        &mut self,
+        tick: u64,
+        is_interrupted: impl Fn() -> bool,
+        recorder: &mut Recorder<ControllerEvent>,
+    ) {
+        let mut naps = 0;
+        while self.bridge.is_inline() && self.lacks_script(tick) && naps < SCRIPT_NAPS && !is_interrupted() {
+            std::thread::sleep(SCRIPT_NAP);
+            naps += 1;
+            self.collect(recorder);
+        }
+        if naps == SCRIPT_NAPS {
+            // Its sender has gone, or is halted.
+            self.script_from = None;
+        }
+    }
+
+    /// Whether a request of a script may be due that has not arrived, and whose sender can send it: he has no more
+    /// unanswered ones than he may.
+    fn lacks_script(&self, tick: u64) -> bool {
+        let is_scripted = |waiting: &&DueRequest| {
+            waiting.request.source == Source::Script && waiting.request.lifetime == Lifetime::Latched
+        };
+        let waiting = self.stops.iter().chain(&self.scheduled).chain(&self.under_evaluation);
+        self.script_from.is_some_and(|from| from <= tick) && waiting.filter(is_scripted).count() < MAX_UNANSWERED
     }
 
     /// Refuses the waiting requests that a newer one of the same source overrides.

@@ -65,6 +65,10 @@ pub struct PlantSummary {
     pub log_gaps: u64,
     /// Wall-clock time from the first step to the last (s).
     pub wall_s: f64,
+    /// Control periods without a new setpoint.
+    pub setpoints_repeated: u64,
+    /// Setpoints that were replaced before the plant used them.
+    pub setpoints_lost: u64,
 }
 
 impl fmt::Display for ControllerSummary {
@@ -84,7 +88,10 @@ impl fmt::Display for ControllerSummary {
 
 impl fmt::Display for PlantSummary {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        write!(out, "{}, {} missed, ", counted(self.ticks, "tick"), counted(self.deadline_misses, "deadline"))?;
+        let Self { ticks, deadline_misses, setpoints_repeated, setpoints_lost, .. } = self;
+        let (ticks, misses) = (counted(*ticks, "tick"), counted(*deadline_misses, "deadline"));
+        let repeated = counted(*setpoints_repeated, "setpoint");
+        write!(out, "{ticks}, {misses} missed, {repeated} used again and {setpoints_lost} not at all, ")?;
         match self.fell_at_s {
             None => write!(out, "no fall"),
             Some(time) => write!(out, "fell at {time:.2} s"),
@@ -123,6 +130,7 @@ mod tests {
             deadline_misses: 1,
             timing: None,
             log_gaps: 0,
+            record_error: None,
         };
         assert_eq!(
             summary.to_string(),

@@ -7,7 +7,7 @@ use interface::{Reply, Request};
 use std::collections::VecDeque;
 
 use runtime::Rate;
-use wire::{OperatorPorts, PendingReply, RequestError};
+use wire::{OperatorPorts, PendingReply, ReplyMessage, RequestError, RequestMessage};
 
 use crate::OperatorError;
 use crate::script::TimedRequest;
@@ -16,25 +16,42 @@ use crate::script::TimedRequest;
 pub struct ScriptRunner {
     operator: OperatorPorts,
     to_send: VecDeque<Request>,
-    /// Requests without a reply, in the order in which they are due.
-    unanswered: VecDeque<(Request, PendingReply)>,
+    /// Requests that were sent and not yet taken by [`next_reply`](Self::next_reply), in the order in which they are due.
+    sent: VecDeque<(Request, Answer)>,
+}
+
+/// The reply to a request.
+enum Answer {
+    Pending(PendingReply),
+    Received(ReplyMessage),
+    /// The controller has ended.
+    Lost,
 }
 
 impl ScriptRunner {
     /// A runner for the requests of a script that begins at tick 0.
     pub fn new(operator: OperatorPorts, script: &[TimedRequest], rate: Rate) -> Self {
         let due = |timed: &TimedRequest| Request { not_before: timed.tick(rate), ..timed.request };
-        Self { operator, to_send: script.iter().map(due).collect(), unanswered: VecDeque::new() }
+        let mut to_send: Vec<Request> = script.iter().map(due).collect();
+        // Each tells that another one follows which is due no earlier.
+        to_send.sort_by_key(|request| request.not_before);
+        Self { operator, to_send: to_send.into(), sent: VecDeque::new() }
     }
 
-    /// Sends as many requests as may be without a reply.
+    /// Sends as many requests as may be without a reply. In lockstep the controller waits for the next one.
     ///
     /// # Errors
     /// The controller cannot be reached.
     pub fn send(&mut self) -> Result<(), OperatorError> {
+        // A reply makes room, also one to a later request than others that still wait.
+        self.sent.iter_mut().for_each(|(_, answer)| answer.update());
         while let Some(request) = self.to_send.front() {
-            match self.operator.requests.send(&request.into()) {
-                Ok(waiting) => self.unanswered.push_back((*request, waiting)),
+            let mut message = RequestMessage::from(request);
+            if self.to_send.len() > 1 {
+                message.present |= RequestMessage::MORE;
+            }
+            match self.operator.requests.send(&message) {
+                Ok(pending) => self.sent.push_back((*request, Answer::Pending(pending))),
                 Err(RequestError::TooMany { .. }) => break,
                 Err(error) => return Err(error.into()),
             }
@@ -45,19 +62,33 @@ impl ScriptRunner {
 
     /// The next request that has a reply, with its reply.
     pub fn next_reply(&mut self) -> Option<(Request, Reply)> {
-        let (_, waiting) = self.unanswered.front()?;
-        match waiting.poll() {
-            Ok(None) => None,
-            Ok(Some(reply)) => {
-                let (request, _) = self.unanswered.pop_front()?;
-                reply.checked().ok().map(|reply| (request, reply))
+        let (request, answer) = self.sent.front_mut()?;
+        answer.update();
+        match answer {
+            Answer::Pending(_) => None,
+            Answer::Received(reply) => {
+                let answered = reply.checked().ok().map(|reply| (*request, reply));
+                self.sent.pop_front();
+                answered
             }
-            // The controller has ended: it will answer no request.
-            Err(_) => {
-                self.unanswered.clear();
+            // It will answer no request.
+            Answer::Lost => {
+                self.sent.clear();
                 self.to_send.clear();
                 None
             }
+        }
+    }
+}
+
+impl Answer {
+    /// Takes the reply if it has arrived, which makes room for another request.
+    fn update(&mut self) {
+        let Answer::Pending(pending) = self else { return };
+        match pending.poll() {
+            Ok(None) => {}
+            Ok(Some(reply)) => *self = Answer::Received(reply),
+            Err(_) => *self = Answer::Lost,
         }
     }
 }

@@ -2,8 +2,10 @@
 //!
 //! * **deadline**: an absolute time on `CLOCK_MONOTONIC`, which is never set and shared by all processes of the
 //!   machine.
-//! * **missed**: a whole period in which the loop did not wake up. After a delay of 2.3 periods two were missed; the
+//! * **skipped**: a whole period in which the loop did not wake up. After a delay of 2.3 periods two are skipped; the
 //!   third begins at once, 0.3 periods late, and the next one on time: the phase is kept, and nothing is caught up.
+//! * **missed**: a deadline that passed before the work was done. After a delay of 2.3 periods three were missed, after
+//!   one of 0.3 periods one.
 //! * **spin**: the time before the deadline that is spent busy-waiting instead of sleeping, since no system wakes a
 //!   thread up to the microsecond.
 
@@ -27,7 +29,9 @@ pub struct Period {
 /// The beginning of a period.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Wake {
-    /// Number of whole periods that were missed: 0 as long as the work fits into the period.
+    /// Number of whole periods that were skipped.
+    pub skipped: u64,
+    /// Number of deadlines that passed before the work was done: 0 as long as it fits into the period.
     pub missed: u64,
     /// Lateness after the deadline (ns).
     pub late_ns: u64,
@@ -41,6 +45,25 @@ impl Period {
         Self { length_ns, deadline_ns: now_ns().saturating_add(length_ns), spin_ns: 0 }
     }
 
+    /// Periods of `length` whose deadlines are a whole number of periods from `origin_ns` on `CLOCK_MONOTONIC`: the first
+    /// one at least `after` from now.
+    pub fn on_grid(length: Duration, origin_ns: u64, after: Duration) -> Self {
+        let mut period = Self::starting_now(length);
+        let earliest = now_ns().saturating_add(u64::try_from(after.as_nanos()).unwrap_or(u64::MAX / 2));
+        period.deadline_ns = first_on_grid(period.length_ns, origin_ns, earliest);
+        period
+    }
+
+    /// Moves the next deadline, and with it all later ones.
+    pub fn shift(&mut self, by_ns: i64) {
+        self.deadline_ns = self.deadline_ns.saturating_add_signed(by_ns);
+    }
+
+    /// Length of a period (ns).
+    pub fn length_ns(&self) -> u64 {
+        self.length_ns
+    }
+
     /// The same periods, with busy-waiting for the last `spin` before each deadline. At most half a period: a thread
     /// that never sleeps blocks others.
     pub fn with_spin(self, spin: Duration) -> Self {
@@ -51,7 +74,9 @@ impl Period {
     /// Waits until the deadline, unless it has passed, and moves it on by one period. Neither allocates nor fails; the
     /// only system call is the sleep.
     pub fn wait(&mut self) -> Wake {
-        let missed = self.skip_missed(now_ns());
+        let now = now_ns();
+        let is_late = now > self.deadline_ns;
+        let skipped = self.skip_missed(now);
         let deadline_ns = self.deadline_ns;
         sleep_until(deadline_ns - self.spin_ns);
         let mut woke_ns = now_ns();
@@ -60,7 +85,7 @@ impl Period {
             woke_ns = now_ns();
         }
         self.deadline_ns = deadline_ns.saturating_add(self.length_ns);
-        Wake { missed, late_ns: woke_ns - deadline_ns }
+        Wake { skipped, missed: skipped + u64::from(is_late), late_ns: woke_ns - deadline_ns }
     }
 
     /// The next deadline on `CLOCK_MONOTONIC` (ns).
@@ -74,6 +99,13 @@ impl Period {
         self.deadline_ns += missed * self.length_ns;
         missed
     }
+}
+
+/// The first deadline on a grid that is not before `earliest`.
+fn first_on_grid(length_ns: u64, origin_ns: u64, earliest: u64) -> u64 {
+    let phase = origin_ns % length_ns;
+    let before = earliest.saturating_sub(phase).div_ceil(length_ns);
+    before.saturating_mul(length_ns).saturating_add(phase)
 }
 
 /// The time on `CLOCK_MONOTONIC` (ns), the same in all processes of the machine.
@@ -102,7 +134,7 @@ mod tests {
         let first = period.deadline_ns();
         let mut deadlines = 0;
         for _ in 0..10 {
-            deadlines += period.wait().missed + 1;
+            deadlines += period.wait().skipped + 1;
             assert!(now_ns() >= period.deadline_ns() - length.as_nanos() as u64, "woke up before the deadline");
             // Some work, which must not add to the period.
             std::thread::sleep(Duration::from_millis(2));
@@ -116,8 +148,8 @@ mod tests {
         for _ in 0..10 {
             let deadline = period.deadline_ns();
             let wake = period.wait();
-            assert!(now_ns() >= deadline + wake.missed * 2_000_000 + wake.late_ns);
-            assert_eq!(period.deadline_ns(), deadline + (1 + wake.missed) * 2_000_000);
+            assert!(now_ns() >= deadline + wake.skipped * 2_000_000 + wake.late_ns);
+            assert_eq!(period.deadline_ns(), deadline + (1 + wake.skipped) * 2_000_000);
         }
         assert_eq!(period.with_spin(Duration::MAX).spin_ns, 1_000_000, "half of the period is slept");
     }
@@ -136,7 +168,31 @@ mod tests {
         let mut period = Period::starting_now(Duration::from_millis(1));
         period.wait();
         std::thread::sleep(Duration::from_millis(20));
-        assert!(period.wait().missed >= 18);
+        let wake = period.wait();
+        assert!(wake.skipped >= 18);
+        assert_eq!(wake.missed, wake.skipped + 1);
+    }
+
+    #[test]
+    fn work_that_is_a_little_too_long_misses_its_deadline_without_a_skipped_period() {
+        let mut period = Period::starting_now(Duration::from_secs(1));
+        period.deadline_ns = now_ns() - 1;
+        let wake = period.wait();
+        assert_eq!((wake.skipped, wake.missed), (0, 1));
+    }
+
+    #[test]
+    fn deadlines_lie_on_the_grid_of_another_process() {
+        for (origin, earliest, deadline) in
+            [(1030, 1030, 1030), (1030, 1031, 1130), (1030, 2999, 3030), (1030, 430, 430), (30, 0, 30), (30, 31, 130)]
+        {
+            assert_eq!(first_on_grid(100, origin, earliest), deadline, "{origin} {earliest}");
+        }
+        let mut period = Period { length_ns: 100, deadline_ns: 1000, spin_ns: 0 };
+        period.shift(-30);
+        assert_eq!(period.deadline_ns, 970);
+        period.shift(50);
+        assert_eq!(period.deadline_ns, 1020);
     }
 
     #[test]

@@ -35,18 +35,27 @@ impl ConnectLock {
     /// The folder or the lock file cannot be created or is not this user's alone, or another process holds the lock for
     /// too long.
     pub(crate) fn acquire(folder: &Path) -> Result<Self, Error> {
+        Self::acquire_within(TIMEOUT, folder)
+    }
+
+    /// The same with another longest wait.
+    pub(crate) fn acquire_within(timeout: Duration, folder: &Path) -> Result<Self, Error> {
         let began = Instant::now();
         loop {
             match Self::try_acquire(folder) {
                 Ok(Some(lock)) => return Ok(lock),
-                Ok(None) if began.elapsed() < TIMEOUT => std::thread::sleep(RETRY_INTERVAL),
+                Ok(None) if began.elapsed() < timeout => std::thread::sleep(RETRY_INTERVAL),
                 Ok(None) => return Err(Error::new(ErrorKind::TimedOut, "another process does not finish connecting")),
                 Err(error) => return Err(error),
             }
         }
     }
 
-    fn try_acquire(folder: &Path) -> Result<Option<Self>, Error> {
+    /// The lock, if no other process holds it and nobody has just removed the folder.
+    ///
+    /// # Errors
+    /// Those of [`acquire`](Self::acquire), but for the last.
+    pub(crate) fn try_acquire(folder: &Path) -> Result<Option<Self>, Error> {
         // The holder of the lock may remove the whole folder.
         let removed = |error: Error| if error.kind() == ErrorKind::NotFound { Ok(None) } else { Err(error) };
         if let Some(user) = folder.parent() {

@@ -1,5 +1,10 @@
 //! Why a process cannot connect or exchange messages.
 
+use std::fmt;
+
+use crate::MAX_OPERATORS;
+use crate::shared_memory::FOLDER;
+
 /// Why a process could not connect to an instance.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ConnectError {
@@ -28,13 +33,15 @@ pub enum ConnectError {
         match *key {
             "protocol" => "run the same version of halfstep on both sides",
             "rate_hz" => "start both sides with the same realtime.toml",
+            "clock" => "start both sides with --lockstep, or both without it",
+            "start" => "start both sides with --from-stand, or both without it",
             _ => "start both sides with the same mechanism file",
         }
     )]
     Mismatch {
         /// The service's full name.
         service: String,
-        /// `protocol`, `mechanism` or `rate_hz`.
+        /// `protocol`, `mechanism`, `rate_hz`, `clock` or `start`.
         key: &'static str,
         /// This process's value.
         ours: String,
@@ -43,19 +50,41 @@ pub enum ConnectError {
     },
     /// The instance has no controller.
     #[error(
-        "no controller is running on instance `{instance}`; start one with `halfstep controller --instance {instance}`"
+        "no controller is running on instance `{instance}`; start one with `halfstep controller --instance \
+         {instance}`{elsewhere}"
     )]
     NoController {
         /// The instance's name.
         instance: String,
+        /// Where else an instance of this name has files.
+        elsewhere: Elsewhere,
     },
     /// No more operators can connect.
-    #[error("{operators} operators are connected to instance `{instance}`, as many as can be; end one of them")]
+    #[error(
+        "{MAX_OPERATORS} operators are connected to instance `{instance}`, as many as can be{}; end one of them. \
+         `halfstep send stop` gets through all the same",
+        listed(processes)
+    )]
     Full {
         /// The instance's name.
         instance: String,
-        /// How many operators can connect.
-        operators: usize,
+        /// Ids of the processes that are connected.
+        processes: Vec<u32>,
+    },
+    /// Shared memory has no room for another process.
+    #[error(
+        "shared memory ({FOLDER}) has no room for this {role}: it needs {}, and {} are free; remove other files there, \
+         or give it more (in a container: docker run --shm-size=256m)",
+        mebibytes(*needed),
+        mebibytes(*free)
+    )]
+    NoRoom {
+        /// What the process would be: `controller`, `plant`, `operator` or `observer`.
+        role: &'static str,
+        /// Memory that it needs (bytes).
+        needed: u64,
+        /// Memory that is free (bytes).
+        free: u64,
     },
     /// A reader has outlived more killed writers than the service has places for.
     #[error(
@@ -78,6 +107,44 @@ pub enum ConnectError {
         /// The reason as given by iceoryx2 or the operating system.
         cause: String,
     },
+}
+
+/// Where an instance has files that this process does not use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Elsewhere {
+    /// Nowhere else.
+    Nowhere,
+    /// An instance of the same name belongs to the user with this id.
+    OtherUser(u32),
+    /// This user has an instance of the same name in another runtime folder.
+    OtherFolder,
+}
+
+impl fmt::Display for Elsewhere {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Elsewhere::Nowhere => Ok(()),
+            Elsewhere::OtherUser(0) => write!(out, ". root runs an instance of this name: use the same user"),
+            Elsewhere::OtherUser(user) => {
+                write!(out, ". The user with the id {user} runs an instance of this name: use the same user")
+            }
+            Elsewhere::OtherFolder => {
+                write!(out, ". You run an instance of this name with another XDG_RUNTIME_DIR: use the same one")
+            }
+        }
+    }
+}
+
+/// The first processes of a list, as a part of a sentence.
+fn listed(processes: &[u32]) -> String {
+    const SHOWN: usize = 8;
+    let shown: Vec<String> = processes.iter().take(SHOWN).map(u32::to_string).collect();
+    let more = if processes.len() > SHOWN { ", …" } else { "" };
+    if shown.is_empty() { String::new() } else { format!(" (processes {}{more})", shown.join(", ")) }
+}
+
+fn mebibytes(bytes: u64) -> String {
+    format!("{:.1} MB", bytes as f64 / f64::from(1 << 20))
 }
 
 fn hint(cause: &str) -> &'static str {

@@ -1,23 +1,21 @@
 //! An instance: the name of one robot, and the memory that its processes share.
 
 use std::fmt;
-use std::fs::{DirEntry, Permissions};
-use std::os::unix::fs::PermissionsExt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::Once;
 
+use iceoryx2::node::NodeView;
 use iceoryx2::prelude::{
-    CallbackProgression, Config, FileName, LogLevel, Node, NodeBuilder, NodeName, NodeState, Path, SemanticString,
+    CallbackProgression, Config, FileName, LogLevel, Node, NodeBuilder, NodeName, NodeState, SemanticString,
     ServiceName, SignalHandlingMode, set_log_level_from_env_or,
 };
+use rustix::process::getuid;
 
 use crate::connect_lock::ConnectLock;
-use crate::runtime_folder;
-use crate::{ConnectError, DEFAULT_RATE_HZ, Ipc, PROTOCOL};
-
-/// Folder of POSIX shared memory on Linux.
-const SHARED_MEMORY: &str = "/dev/shm";
+use crate::leftovers::{Leftovers, Sweep};
+use crate::shared_memory::{self, Role};
+use crate::{ConnectError, DEFAULT_RATE_HZ, Elsewhere, Ipc, PROTOCOL, runtime_folder};
 
 /// Name of an instance: 1 to 32 characters of `a`–`z`, `0`–`9`, `_` and `-`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -51,12 +49,19 @@ impl fmt::Display for InstanceName {
     }
 }
 
+/// The clock of an instance unless it is set otherwise.
+const REALTIME: &str = "realtime";
+/// The start posture of an instance unless it is set otherwise.
+const STRIDE: &str = "stride";
+
 /// One robot: its name, and where its shared memory lies.
 #[derive(Clone, Debug)]
 pub struct Instance {
     name: InstanceName,
     protocol: u32,
     rate_hz: u32,
+    clock: &'static str,
+    start: &'static str,
     root: PathBuf,
     config: Config,
 }
@@ -67,8 +72,21 @@ impl Instance {
     /// # Errors
     /// The name is not usable, or the path of the temporary folder is too long.
     pub fn new(name: &str) -> Result<Self, ConnectError> {
+        Self::in_folder(name, &runtime_folder::of_user())
+    }
+
+    /// The instance called `name` as processes see it whose `$XDG_RUNTIME_DIR` is `base`, which must be this user's
+    /// alone: for tests.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new).
+    pub fn new_in(name: &str, base: &Path) -> Result<Self, ConnectError> {
+        Self::in_folder(name, &runtime_folder::of_user_in(base))
+    }
+
+    fn in_folder(name: &str, of_user: &Path) -> Result<Self, ConnectError> {
         let name: InstanceName = name.parse()?;
-        let root = runtime_folder::of_user().join(name.as_str());
+        let root = of_user.join(name.as_str());
 
         // Not read from a file: all processes of an instance must agree, wherever they were started.
         let mut config = Config::default();
@@ -79,10 +97,13 @@ impl Instance {
         };
         // A dot cannot be part of a name, so that no instance's files begin like another's. An instance of the same
         // name of another user, or in another folder, is another one.
-        let prefix = format!("halfstep.{:016x}.{name}.", fnv_1a(root.as_os_str().as_encoded_bytes()));
+        let prefix = format!("halfstep.{}.{name}.", folder_hash(&root));
         config.global.prefix = FileName::new(prefix.as_bytes()).map_err(|cause| no_path(&cause))?;
-        config.global.set_root_path(&Path::new(root.as_os_str().as_encoded_bytes()).map_err(|cause| no_path(&cause))?);
-        Ok(Self { name, protocol: PROTOCOL, rate_hz: DEFAULT_RATE_HZ, root, config })
+        config.global.set_root_path(
+            &iceoryx2::prelude::Path::new(root.as_os_str().as_encoded_bytes()).map_err(|cause| no_path(&cause))?,
+        );
+        let (protocol, rate_hz, clock, start) = (PROTOCOL, DEFAULT_RATE_HZ, REALTIME, STRIDE);
+        Ok(Self { name, protocol, rate_hz, clock, start, root, config })
     }
 
     /// The same instance for a process with another protocol version than [`PROTOCOL`].
@@ -96,8 +117,18 @@ impl Instance {
         Self { rate_hz, ..self }
     }
 
+    /// The same instance for a controller or plant in lockstep instead of in real time.
+    pub fn with_lockstep(self, lockstep: bool) -> Self {
+        Self { clock: if lockstep { "lockstep" } else { REALTIME }, ..self }
+    }
+
+    /// The same instance for a controller or plant that begins in a stand instead of in stride.
+    pub fn with_stand(self, stands: bool) -> Self {
+        Self { start: if stands { "stand" } else { STRIDE }, ..self }
+    }
+
     /// The folder of the instance's files.
-    pub fn folder(&self) -> &std::path::Path {
+    pub fn folder(&self) -> &Path {
         &self.root
     }
 
@@ -111,38 +142,18 @@ impl Instance {
         &self.name
     }
 
-    /// Removes everything that former processes have left behind: killed ones much, cleanly exited ones a few bytes.
-    /// While any process is connected, only the leftovers of dead processes are removed. Too slow for the control loop.
+    /// Removes everything that former processes have left behind. While any process is connected, only the leftovers of
+    /// dead processes are removed. Too slow for the control loop.
     ///
     /// # Errors
     /// The folder of the instance cannot be read or removed.
     pub fn remove_leftovers(&self) -> Result<(), ConnectError> {
-        let _lock = self.connect_lock()?;
-        let mut in_use = false;
-        Node::<Ipc>::list(&self.config, |state| {
-            match state {
-                NodeState::Alive(_) | NodeState::Inaccessible(_) => in_use = true,
-                // If it fails, the files are removed below or by the next attempt.
-                NodeState::Dead(dead) => drop(dead.try_remove_stale_resources()),
-                // The process was killed while it connected.
-                NodeState::Undefined(_) => {}
-            }
-            CallbackProgression::Continue
-        })
-        .map_err(|cause| self.memory_error("list the processes of", cause))?;
-        if in_use {
-            return Ok(());
-        }
-
-        for file in self.files_in_shared_memory()? {
-            removed(std::fs::remove_file(file)).map_err(|cause| self.memory_error("remove the files of", cause))?;
-        }
-        removed(std::fs::remove_dir_all(&self.root)).map_err(|cause| self.memory_error("remove the files of", cause))
+        Sweep::of(self, self.connect_lock()?).run()
     }
 
-    /// A guard that removes the leftovers when it is dropped: for tests, and for instance names that are used once.
+    /// A guard that removes the leftovers when it is dropped: whoever leaves last leaves nothing.
     pub fn leftovers(&self) -> Leftovers {
-        Leftovers(self.clone())
+        Leftovers::new(self.clone())
     }
 
     pub(crate) fn protocol(&self) -> u32 {
@@ -153,8 +164,21 @@ impl Instance {
         self.rate_hz
     }
 
+    pub(crate) fn clock(&self) -> &'static str {
+        self.clock
+    }
+
+    pub(crate) fn start(&self) -> &'static str {
+        self.start
+    }
+
     pub(crate) fn config(&self) -> &Config {
         &self.config
+    }
+
+    /// Waits until this process may connect to an instance that must exist: nothing is created.
+    pub(crate) fn connect_lock_if_there(&self) -> Result<ConnectLock, ConnectError> {
+        if self.root.exists() { self.connect_lock() } else { Err(self.no_controller()) }
     }
 
     /// Waits until this process may connect.
@@ -164,27 +188,38 @@ impl Instance {
     }
 
     /// Connects to the instance, and cleans up after processes that died in it. Needs the lock.
-    pub(crate) fn open_node(&self, _lock: &ConnectLock, role: &str) -> Result<Node<Ipc>, ConnectError> {
-        let node = NodeBuilder::new()
-            .name(&NodeName::new(role).expect("a role is a short word"))
+    pub(crate) fn open_node(&self, _lock: &ConnectLock, role: Role) -> Result<Node<Ipc>, ConnectError> {
+        shared_memory::require_own(&self.prefix())?;
+        shared_memory::require_room(role)?;
+        NodeBuilder::new()
+            .name(&NodeName::new(role.name()).expect("a role is a short word"))
             .config(&self.config)
             // Signals belong to the process, not to a library.
             .signal_handling_mode(SignalHandlingMode::Disabled)
             .create()
-            .map_err(|cause| self.memory_error("join the instance", cause))?;
-        // One of iceoryx2's own files is open to everyone.
-        for file in self.files_in_shared_memory()? {
-            let _ = std::fs::set_permissions(file, Permissions::from_mode(0o600));
-        }
-        Ok(node)
+            .map_err(|cause| self.memory_error("join the instance", cause))
     }
 
-    /// The instance's files in shared memory.
-    fn files_in_shared_memory(&self) -> Result<Vec<PathBuf>, ConnectError> {
-        let prefix = self.prefix();
-        let files = std::fs::read_dir(SHARED_MEMORY).map_err(|cause| self.memory_error("read the files of", cause))?;
-        let is_ours = |file: &DirEntry| file.file_name().as_encoded_bytes().starts_with(prefix.as_bytes());
-        Ok(files.flatten().filter(is_ours).map(|file| file.path()).collect())
+    /// Takes the memory of what a process has connected to; it must still hold the lock.
+    pub(crate) fn take_room(&self, _lock: &ConnectLock, role: Role) -> Result<(), ConnectError> {
+        shared_memory::take_room(&self.prefix(), role)
+    }
+
+    /// Ids of the processes that are connected in a role.
+    pub(crate) fn processes(&self, role: Role) -> Vec<u32> {
+        let mut processes = Vec::new();
+        // If they cannot be listed, none is named.
+        let _ = Node::<Ipc>::list(&self.config, |state| {
+            if let NodeState::Alive(node) = state
+                && let Some(details) = node.details()
+                && details.name().as_str() == role.name()
+            {
+                processes.push(details.process_id().value() as u32);
+            }
+            CallbackProgression::Continue
+        });
+        processes.sort_unstable();
+        processes
     }
 
     pub(crate) fn service_name(&self, service: &str) -> ServiceName {
@@ -193,37 +228,36 @@ impl Instance {
     }
 
     pub(crate) fn no_controller(&self) -> ConnectError {
-        ConnectError::NoController { instance: self.name.to_string() }
+        ConnectError::NoController { instance: self.name.to_string(), elsewhere: self.elsewhere() }
     }
 
-    fn memory_error(&self, action: &'static str, cause: impl fmt::Display) -> ConnectError {
+    /// Where else an instance of this name has files.
+    fn elsewhere(&self) -> Elsewhere {
+        let hash = folder_hash(&self.root);
+        let others: Vec<_> = shared_memory::all()
+            .into_iter()
+            .filter(|file| file.instance == self.name.as_str() && file.folder != hash)
+            .collect();
+        match others.iter().find(|file| file.user != getuid().as_raw()) {
+            Some(file) => Elsewhere::OtherUser(file.user),
+            None if others.is_empty() => Elsewhere::Nowhere,
+            None => Elsewhere::OtherFolder,
+        }
+    }
+
+    pub(crate) fn memory_error(&self, action: &'static str, cause: impl fmt::Display) -> ConnectError {
         ConnectError::Memory { action, what: self.name.to_string(), cause: cause.to_string() }
     }
 }
 
-/// Removes what is left of an instance when dropped; see [`Instance::remove_leftovers`].
-#[derive(Debug)]
-#[must_use = "dropping it removes the leftovers at once"]
-pub struct Leftovers(Instance);
-
-impl Drop for Leftovers {
-    fn drop(&mut self) {
-        // A destructor cannot return the error; leftovers only take space.
-        let _ = self.0.remove_leftovers();
-    }
+/// The hash of an instance's folder, in the names of its files in shared memory.
+pub(crate) fn folder_hash(root: &Path) -> String {
+    format!("{:016x}", fnv_1a(root.as_os_str().as_encoded_bytes()))
 }
 
 /// The FNV-1a hash of some bytes, 64 bits.
 fn fnv_1a(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
-}
-
-/// The result of a removal: what is already gone needs none.
-fn removed(result: std::io::Result<()>) -> std::io::Result<()> {
-    match result {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(()),
-        result => result,
-    }
 }
 
 /// Silences iceoryx2, which logs every refusal that we report ourselves; `IOX2_LOG_LEVEL` overrides it.

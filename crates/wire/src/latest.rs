@@ -13,6 +13,7 @@ use iceoryx2::prelude::{MessagingPattern, Node};
 use iceoryx2::service::port_factory::blackboard;
 
 use crate::service_contract::ServiceContract;
+use crate::shared_memory::Role;
 use crate::{ConnectError, Instance, Ipc, Latest, NEVER_WRITTEN};
 
 /// Slots of a blackboard, one for each writer: how often a writer may be killed while its readers keep running.
@@ -42,7 +43,7 @@ impl<'a> LatestService<'a> {
         service: &'static str,
         mechanism: u64,
     ) -> Result<Self, ConnectError> {
-        let contract = ServiceContract::new(instance, service, MessagingPattern::Blackboard, Some(mechanism)).at_rate();
+        let contract = ServiceContract::new(instance, service, MessagingPattern::Blackboard, Some(mechanism)).of_pair();
         let blackboard = contract.open_or_create(
             || node.service_builder(&contract.name).blackboard_opener::<Slot>().open(),
             |attributes| {
@@ -57,8 +58,13 @@ impl<'a> LatestService<'a> {
         Ok(Self { contract, blackboard })
     }
 
+    /// Compares what both sides must begin with: for a robot that has not moved yet.
+    pub(crate) fn check_start(&self) -> Result<(), ConnectError> {
+        self.contract.check_start(&self.blackboard)
+    }
+
     /// Creates the only writer, which makes this process the `role` of the instance.
-    pub(crate) fn writer<M: Latest>(&self, role: &'static str) -> Result<LatestWriter<M>, ConnectError> {
+    pub(crate) fn writer<M: Latest>(&self, role: Role) -> Result<LatestWriter<M>, ConnectError> {
         let taken = WriterCreateError::ExceedsMaxSupportedWriters;
         let create = || self.blackboard.writer_builder().create();
         let writer = self.contract.claim(role, taken, &self.blackboard, create)?;

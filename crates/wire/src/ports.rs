@@ -1,6 +1,8 @@
 //! The ports of an instance's processes: everything through which they exchange messages.
 
 use crate::latest::LatestService;
+use crate::leftovers::sweep_others;
+use crate::shared_memory::Role;
 use crate::{
     ConnectError, Instance, LatestReader, LatestWriter, MeasurementMessage, ReportPublisher, ReportSubscriber,
     RequestClient, RequestServer, SetpointMessage,
@@ -24,21 +26,30 @@ impl ControllerPorts {
     /// Connects this process as the controller of an instance, for the robot with the fingerprint `mechanism`.
     ///
     /// # Errors
-    /// Another controller is running, or a plant of another version or for another mechanism, or the shared memory is
-    /// not usable.
+    /// Another controller is running, or a plant of another version, for another mechanism, or with another rate, clock
+    /// or start posture, or the shared memory is not usable or has no room.
     pub fn connect(instance: &Instance, mechanism: u64) -> Result<Self, ConnectError> {
+        sweep_others(instance);
         let lock = instance.connect_lock()?;
-        let node = instance.open_node(&lock, "controller")?;
+        let node = instance.open_node(&lock, Role::Controller)?;
         let setpoint = LatestService::open::<SetpointMessage>(instance, &node, SETPOINT, mechanism)?;
         let measurement = LatestService::open::<MeasurementMessage>(instance, &node, MEASUREMENT, mechanism)?;
-        Ok(Self {
-            setpoints: setpoint.writer("controller")?,
+        check_start(&setpoint)?;
+        let ports = Self {
+            setpoints: setpoint.writer(Role::Controller)?,
             measurements: measurement.reader()?,
             reports: ReportPublisher::connect(instance, &node)?,
             // Last: operators take it as the sign that a controller is running.
             requests: RequestServer::connect(instance, &node)?,
-        })
+        };
+        instance.take_room(&lock, Role::Controller)?;
+        Ok(ports)
     }
+}
+
+/// Compares the start posture of both sides as long as no controller has moved the robot.
+fn check_start(setpoint: &LatestService) -> Result<(), ConnectError> {
+    if setpoint.reader::<SetpointMessage>()?.latest().is_none() { setpoint.check_start() } else { Ok(()) }
 }
 
 /// The plant's ports.
@@ -54,14 +65,18 @@ impl PlantPorts {
     /// Connects this process as the plant of an instance, for the robot with the fingerprint `mechanism`.
     ///
     /// # Errors
-    /// Another plant is running, or a controller of another version or for another mechanism, or the shared memory is
-    /// not usable.
+    /// Another plant is running, or a controller of another version, for another mechanism, or with another rate, clock
+    /// or start posture, or the shared memory is not usable or has no room.
     pub fn connect(instance: &Instance, mechanism: u64) -> Result<Self, ConnectError> {
+        sweep_others(instance);
         let lock = instance.connect_lock()?;
-        let node = instance.open_node(&lock, "plant")?;
+        let node = instance.open_node(&lock, Role::Plant)?;
         let setpoint = LatestService::open::<SetpointMessage>(instance, &node, SETPOINT, mechanism)?;
         let measurement = LatestService::open::<MeasurementMessage>(instance, &node, MEASUREMENT, mechanism)?;
-        Ok(Self { measurements: measurement.writer("plant")?, setpoints: setpoint.reader()? })
+        check_start(&setpoint)?;
+        let ports = Self { measurements: measurement.writer(Role::Plant)?, setpoints: setpoint.reader()? };
+        instance.take_room(&lock, Role::Plant)?;
+        Ok(ports)
     }
 }
 
@@ -78,9 +93,11 @@ impl OperatorPorts {
     /// # Errors
     /// No controller is running, or one of another version, or too many operators are connected.
     pub fn connect(instance: &Instance) -> Result<Self, ConnectError> {
-        let lock = instance.connect_lock()?;
-        let node = instance.open_node(&lock, "operator")?;
-        Ok(Self { requests: RequestClient::connect(instance, &node)? })
+        let lock = instance.connect_lock_if_there()?;
+        let node = instance.open_node(&lock, Role::Operator)?;
+        let ports = Self { requests: RequestClient::connect(instance, &node)? };
+        instance.take_room(&lock, Role::Operator)?;
+        Ok(ports)
     }
 }
 
@@ -98,9 +115,11 @@ impl ObserverPorts {
     /// # Errors
     /// No controller is running, or one of another version, or too many observers are connected.
     pub fn connect(instance: &Instance) -> Result<Self, ConnectError> {
-        let lock = instance.connect_lock()?;
-        let node = instance.open_node(&lock, "observer")?;
-        Ok(Self { reports: ReportSubscriber::connect(instance, &node)? })
+        let lock = instance.connect_lock_if_there()?;
+        let node = instance.open_node(&lock, Role::Observer)?;
+        let ports = Self { reports: ReportSubscriber::connect(instance, &node)? };
+        instance.take_room(&lock, Role::Observer)?;
+        Ok(ports)
     }
 }
 

@@ -9,6 +9,7 @@ use iceoryx2::service::builder::publish_subscribe::Builder;
 use iceoryx2::service::port_factory::publish_subscribe::PortFactory;
 
 use crate::service_contract::{ServiceContract, rate_hz};
+use crate::shared_memory::Role;
 use crate::{ConnectError, Instance, Ipc, ReportMessage, TransportError};
 
 /// Most subscribers at a time.
@@ -50,7 +51,7 @@ impl ReportPublisher {
         )?;
         let taken = PublisherCreateError::ExceedsMaxSupportedPublishers;
         let create = || service.publisher_builder().backpressure_strategy(BackpressureStrategy::DiscardData).create();
-        let publisher = contract.claim("controller", taken, &service, create)?;
+        let publisher = contract.claim(Role::Controller, taken, &service, create)?;
         Ok(Self { publisher })
     }
 

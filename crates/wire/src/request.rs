@@ -14,14 +14,16 @@ use iceoryx2::service::port_factory::request_response::PortFactory;
 use iceoryx2::service::port_factory::server::ServerCreateError;
 
 use crate::service_contract::ServiceContract;
+use crate::shared_memory::Role;
+use crate::urgent_socket::{UrgentResponder, UrgentServer};
 use crate::{ConnectError, Instance, Ipc, ReplyMessage, RequestError, RequestMessage, TransportError};
 
 /// Most operators at a time: more than anyone needs, so that a stop always finds a place.
 pub const MAX_OPERATORS: usize = 32;
 /// Most processes that may use the service at a time.
 const MAX_NODES: usize = 64;
-/// Most unanswered requests of one operator.
-pub const MAX_UNANSWERED: usize = 256;
+/// Most unanswered requests of one operator. The memory that an operator takes grows with its square: 0.6 MB for 32.
+pub const MAX_UNANSWERED: usize = 32;
 
 /// Time between two checks of a waiting operator for its reply.
 const POLL_INTERVAL: Duration = Duration::from_millis(1);
@@ -52,6 +54,10 @@ fn builder(contract: &ServiceContract, node: &Node<Ipc>) -> Builder<RequestMessa
 /// The controller's end of the request service.
 #[derive(Debug)]
 pub struct RequestServer {
+    // First: its name is free again before another controller may connect.
+    urgent: UrgentServer,
+    /// Whether the next request is to be taken from the socket first: both ways take turns.
+    is_urgent_next: bool,
     server: Server<Ipc, RequestMessage, (), ReplyMessage, ()>,
 }
 
@@ -67,37 +73,59 @@ impl RequestServer {
             // An operator that does not read its replies must not block the controller.
             service.server_builder().backpressure_strategy(BackpressureStrategy::DiscardData).create()
         };
-        let server = contract.claim("controller", taken, &service, create)?;
-        Ok(Self { server })
+        let server = contract.claim(Role::Controller, taken, &service, create)?;
+        Ok(Self { urgent: UrgentServer::bind(instance)?, is_urgent_next: true, server })
     }
 
-    /// The next request, in order of arrival, and the means to reply to it; `None` if there is none.
+    /// The next request and the means to reply to it; `None` if there is none. Those of an operator come in the order
+    /// in which they were sent; stops of [`UrgentClient`](crate::UrgentClient) and other requests take turns.
     ///
     /// # Errors
     /// The memory of an operator could not be reached. Later calls may succeed.
     pub fn next_request(&mut self) -> Result<Option<(RequestMessage, Responder)>, TransportError> {
+        if std::mem::replace(&mut self.is_urgent_next, false)
+            && let Some(urgent) = self.next_urgent()
+        {
+            return Ok(Some(urgent));
+        }
+        self.is_urgent_next = true;
         match self.server.receive() {
-            Ok(request) => Ok(request.map(|request| (*request, Responder { request }))),
+            Ok(Some(request)) => Ok(Some((*request, Responder(Way::SharedMemory(request))))),
+            Ok(None) => Ok(self.next_urgent()),
             Err(cause) => Err(TransportError { action: "receive a request", cause: cause.to_string() }),
         }
+    }
+
+    fn next_urgent(&self) -> Option<(RequestMessage, Responder)> {
+        self.urgent.receive().map(|(message, responder)| (message, Responder(Way::Socket(responder))))
     }
 }
 
 /// The means to reply to one request. It may be kept, for instance until the request takes effect. If it is dropped
 /// without a reply, the operator gets [`RequestError::Dropped`].
-pub struct Responder {
-    request: ActiveRequest<Ipc, RequestMessage, (), ReplyMessage, ()>,
+pub struct Responder(Way);
+
+/// The way on which a request came, and its reply goes.
+enum Way {
+    SharedMemory(ActiveRequest<Ipc, RequestMessage, (), ReplyMessage, ()>),
+    Socket(UrgentResponder),
 }
 
 impl Responder {
-    /// Whether the operator still waits for the reply.
+    /// Whether the operator still waits for the reply. A stop that came through the socket is carried out in any case.
     pub fn is_wanted(&self) -> bool {
-        self.request.is_connected()
+        match &self.0 {
+            Way::SharedMemory(request) => request.is_connected(),
+            Way::Socket(_) => true,
+        }
     }
 
     /// Sends the reply; `false` if it could not be delivered because the operator has disconnected.
     pub fn reply(self, reply: &ReplyMessage) -> bool {
-        self.request.send_copy(*reply).is_ok()
+        match self.0 {
+            Way::SharedMemory(request) => request.send_copy(*reply).is_ok(),
+            Way::Socket(responder) => responder.reply(reply),
+        }
     }
 }
 
@@ -123,7 +151,8 @@ impl RequestClient {
             service.client_builder().backpressure_strategy(BackpressureStrategy::DiscardData).create().map_err(
                 |cause| match cause {
                     ClientCreateError::ExceedsMaxSupportedClients => {
-                        ConnectError::Full { instance: instance.name().to_string(), operators: MAX_OPERATORS }
+                        let processes = instance.processes(Role::Operator);
+                        ConnectError::Full { instance: instance.name().to_string(), processes }
                     }
                     cause => contract.memory_error("connect to", cause),
                 },
@@ -132,7 +161,7 @@ impl RequestClient {
         if client.controller_is_there() { Ok(client) } else { Err(instance.no_controller()) }
     }
 
-    /// Sends a request without waiting for the reply. Up to 256 requests may be unanswered at a time.
+    /// Sends a request without waiting for the reply. Up to 32 requests may be unanswered at a time.
     ///
     /// # Errors
     /// No controller is running, too many requests are unanswered, or the shared memory failed.

@@ -17,8 +17,13 @@ pub(crate) fn of_user() -> PathBuf {
     let given = std::env::var_os("XDG_RUNTIME_DIR").map(PathBuf::from).filter(|folder| folder.is_absolute());
     let candidates = given.into_iter().chain([PathBuf::from(format!("/run/user/{user}"))]);
     let base = candidates.into_iter().find(|folder| open_own(folder).is_ok()).unwrap_or_else(|| "/tmp".into());
+    of_user_in(&base)
+}
+
+/// The folder of this user in a folder for files of running programs.
+pub(crate) fn of_user_in(base: &Path) -> PathBuf {
     // Without doubled slashes: all processes must write the path in the same way.
-    base.join(format!("halfstep-{user}")).components().collect()
+    base.join(format!("halfstep-{}", getuid().as_raw())).components().collect()
 }
 
 /// Creates a folder of [`of_user`], or one in it, if it is missing, and makes sure that no one else can enter it.
@@ -34,7 +39,10 @@ pub(crate) fn create(folder: &Path) -> Result<(), Error> {
 }
 
 /// Opens a folder that belongs to this user and that nobody else may enter.
-fn open_own(folder: &Path) -> Result<File, Error> {
+///
+/// # Errors
+/// The folder is missing, is a link, belongs to another user, or others may enter it.
+pub(crate) fn open_own(folder: &Path) -> Result<File, Error> {
     let flags = OFlags::DIRECTORY | OFlags::NOFOLLOW;
     let opened = OpenOptions::new().read(true).custom_flags(flags.bits() as i32).open(folder);
     let opened = opened.map_err(|error| {

@@ -7,7 +7,9 @@ mod common;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 
-use common::{LONG, MECHANISM, eventually, files_of, measurement, own_instance, report, request, setpoint};
+use common::{
+    LONG, MECHANISM, eventually, files_of, measurement, own_instance, report, request, runtime_folder, setpoint,
+};
 use wire::{ControllerPorts, Instance, ObserverPorts, OperatorPorts, PlantPorts, RequestError, WRITER_SLOTS};
 
 /// A child process that has written its message.
@@ -17,6 +19,7 @@ impl Victim {
     fn start(instance: &Instance, role: &str, tick: u64) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_killed_process"))
             .args([instance.name().as_str(), role, &tick.to_string()])
+            .env("XDG_RUNTIME_DIR", runtime_folder(instance))
             .stdout(Stdio::piped())
             .spawn()
             .unwrap();

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{MECHANISM, measurement, own_instance};
+use common::{MECHANISM, measurement, own_instance, setpoint};
 use wire::{ConnectError, ControllerPorts, ObserverPorts, OperatorPorts, PROTOCOL, PlantPorts};
 
 #[test]
@@ -47,6 +47,46 @@ fn another_rate_is_refused_and_observers_can_read_it() {
     );
     assert!(OperatorPorts::connect(&instance).is_ok(), "operators need not know the rate");
     assert_eq!(ObserverPorts::connect(&instance).unwrap().reports.rate_hz(), 2000);
+}
+
+#[test]
+fn another_clock_is_refused_in_either_start_order() {
+    let (instance, _leftovers) = own_instance();
+    let lockstep = instance.clone().with_lockstep(true);
+    let refusal = |theirs: &str, ours: &str| {
+        format!(
+            "service `halfstep/{}/setpoint` has clock {theirs}, this process has clock {ours}; \
+             start both sides with --lockstep, or both without it",
+            instance.name()
+        )
+    };
+    let controller = ControllerPorts::connect(&lockstep, MECHANISM).unwrap();
+    let text = PlantPorts::connect(&instance, MECHANISM).unwrap_err().to_string();
+    assert_eq!(text, refusal("lockstep", "realtime"));
+    drop(controller);
+    let _plant = PlantPorts::connect(&instance, MECHANISM).unwrap();
+    let text = ControllerPorts::connect(&lockstep, MECHANISM).unwrap_err().to_string();
+    assert_eq!(text, refusal("realtime", "lockstep"));
+}
+
+#[test]
+fn another_start_posture_is_refused_until_the_robot_moves() {
+    let (instance, _leftovers) = own_instance();
+    let stand = instance.clone().with_stand(true);
+    let mut controller = ControllerPorts::connect(&stand, MECHANISM).unwrap();
+    let text = PlantPorts::connect(&instance, MECHANISM).unwrap_err().to_string();
+    let expected = format!(
+        "service `halfstep/{}/setpoint` has start stand, this process has start stride; \
+         start both sides with --from-stand, or both without it",
+        instance.name()
+    );
+    assert_eq!(text, expected);
+    let _plant = PlantPorts::connect(&stand, MECHANISM).unwrap();
+
+    // A controller that takes over a robot that has moved finds it in any posture.
+    controller.setpoints.write(&setpoint(0));
+    drop(controller);
+    assert!(ControllerPorts::connect(&instance, MECHANISM).is_ok());
 }
 
 #[test]

@@ -4,7 +4,9 @@ mod common;
 
 use common::{LONG, MECHANISM, eventually, files_of, measurement, own_instance, report, request, setpoint};
 use interface::{Command, Reason, Reply};
-use wire::{ConnectError, ControllerPorts, ObserverPorts, OperatorPorts, PlantPorts, ReplyMessage, RequestError};
+use wire::{
+    ConnectError, ControllerPorts, MAX_UNANSWERED, ObserverPorts, OperatorPorts, PlantPorts, ReplyMessage, RequestError,
+};
 
 #[test]
 fn readers_get_the_latest_setpoint_and_measurement() {
@@ -39,19 +41,21 @@ fn each_request_gets_its_own_reply() {
     let mut controller = ControllerPorts::connect(&instance, MECHANISM).unwrap();
     let (console, script) = (OperatorPorts::connect(&instance).unwrap(), OperatorPorts::connect(&instance).unwrap());
 
-    // Both send 256 requests before the first reply.
+    // Both send as many requests as they can before the first reply.
     let ask = |operator: &OperatorPorts, from: u32| {
-        (0..256).map(|turn| operator.requests.send(&request(f64::from(from + turn))).unwrap()).collect::<Vec<_>>()
+        (0..MAX_UNANSWERED as u32)
+            .map(|turn| operator.requests.send(&request(f64::from(from + turn))).unwrap())
+            .collect::<Vec<_>>()
     };
     let waiting = [ask(&console, 0), ask(&script, 1000)];
-    assert_eq!(console.requests.send(&request(0.0)).unwrap_err(), RequestError::TooMany { limit: 256 });
+    assert_eq!(console.requests.send(&request(0.0)).unwrap_err(), RequestError::TooMany { limit: MAX_UNANSWERED });
     assert!(waiting[0][0].poll().unwrap().is_none());
 
     let mut asked = Vec::new();
     while let Some(question) = controller.requests.next_request().unwrap() {
         asked.push(question);
     }
-    assert_eq!(asked.len(), 512);
+    assert_eq!(asked.len(), 2 * MAX_UNANSWERED);
     // Replies in another order than the requests.
     for (message, answer) in asked.into_iter().rev() {
         assert!(answer.reply(&reply_to(message.turn)));

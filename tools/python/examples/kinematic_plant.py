@@ -10,7 +10,7 @@ from halfstep import Measurement, Plant
 MECHANISM = 0x3DD21AC657A5BDD5  # `halfstep check` prints it
 WEIGHT = 73.031 * 9.80665
 
-plant = Plant(MECHANISM, *sys.argv[1:])
+plant = Plant(MECHANISM, *sys.argv[1:], lockstep=True)
 first = Measurement(imu_orientation=(1, 0, 0, 0), wrench_right=(0, 0, WEIGHT, 0, 0, 0))
 for setpoint, measurement in plant.lockstep(first, ticks=5000):
     measurement.angles[2:] = setpoint.angles[2:]

@@ -22,6 +22,7 @@ from .messages import (
 )
 from .operator import Answer, Observer, Operator
 from .plant import Plant
+from .urgent import stop
 
 __all__ = [
     "PROTOCOL",
@@ -47,4 +48,5 @@ __all__ = [
     "Source",
     "TimedOut",
     "Verdict",
+    "stop",
 ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import fcntl
 import os
 import re
@@ -22,6 +23,9 @@ _TURN_PATIENCE_S = 20.0
 # How long a process that is just leaving may stand in the way.
 _PATIENCE_S = 1.0
 _PAUSE_S = 0.005
+_SHARED_MEMORY = Path("/dev/shm")
+# As in `crates/wire/src/shared_memory.rs` (bytes).
+_NEEDED = {"operator": 1 << 20, "observer": 64 << 10, "plant": 512 << 10}
 
 
 class Instance:
@@ -38,8 +42,13 @@ class Instance:
         self.config.global_cfg.root_path = iox2.Path.new(str(self.root))
 
     @contextlib.contextmanager
-    def turn(self) -> Iterator[None]:
-        """Processes of an instance connect one after the other: waits for the turn, and gives it back."""
+    def turn(self, create: bool = False) -> Iterator[None]:
+        """Processes of an instance connect one after the other: waits for the turn, and gives it back.
+
+        Without `create` the instance must be there: `NoController`.
+        """
+        if not create and not self.root.exists():
+            raise NoController(f"no controller is running on instance {self.name!r}")
         began = time.monotonic()
         while True:
             lock = self._lock()
@@ -75,6 +84,7 @@ class Instance:
 
     def join(self, role: str) -> Any:
         """A node of the instance; only whose turn it is may ask for it."""
+        _require_room(role)
         iox2.set_log_level_from_env_or(iox2.LogLevel.Fatal)
         return (
             iox2.NodeBuilder.new()
@@ -84,9 +94,37 @@ class Instance:
             .create(iox2.ServiceType.Ipc)
         )
 
+    def take_room(self, role: str) -> None:
+        """Takes the memory of what was connected to at once: who writes where none is left dies of SIGBUS."""
+        for file in _SHARED_MEMORY.glob(f"{self.config.global_cfg.prefix}*"):
+            with contextlib.suppress(PermissionError, FileNotFoundError):
+                opened = os.open(file, os.O_RDWR | os.O_CLOEXEC)
+                try:
+                    os.posix_fallocate(opened, 0, max(os.fstat(opened).st_size, 1))
+                except OSError as cause:
+                    if cause.errno == errno.ENOSPC:
+                        raise _no_room(role) from cause
+                finally:
+                    os.close(opened)
+
     def service_name(self, service: str) -> Any:
         """What shared memory calls a service."""
         return iox2.ServiceName.new(f"halfstep/{self.name}/{service}")
+
+
+def _require_room(role: str) -> None:
+    found = os.statvfs(_SHARED_MEMORY)
+    if found.f_blocks and found.f_bavail * found.f_frsize < _NEEDED[role]:
+        raise _no_room(role)
+
+
+def _no_room(role: str) -> HalfstepError:
+    found = os.statvfs(_SHARED_MEMORY)
+    free = found.f_bavail * found.f_frsize / 2**20
+    return HalfstepError(
+        f"shared memory ({_SHARED_MEMORY}) has no room for this {role}: it needs {_NEEDED[role] / 2**20:.1f} MB, and "
+        f"{free:.1f} MB are free; remove other files there, or give it more (in a container: docker run --shm-size=256m)"
+    )
 
 
 def _runtime_folder() -> Path:
@@ -129,7 +167,14 @@ class Agreement:
     """A service of an instance, and what both sides must agree on."""
 
     def __init__(
-        self, instance: Instance, service: str, pattern: Any, mechanism: int | None = None, rate_hz: int = 1000
+        self,
+        instance: Instance,
+        service: str,
+        pattern: Any,
+        mechanism: int | None = None,
+        rate_hz: int = 1000,
+        clock: str = "realtime",
+        start: str = "stride",
     ) -> None:
         self.instance = instance
         self.name = instance.service_name(service)
@@ -139,24 +184,31 @@ class Agreement:
         if mechanism is not None:
             self.terms["mechanism"] = f"{mechanism:#018x}"
             self.terms["rate_hz"] = str(rate_hz)
+            self.terms["clock"] = clock
+        # Compared only before the robot moves.
+        self.initial = {} if mechanism is None else {"start": start}
 
     def specifier(self) -> Any:
         """The terms, for whoever creates the service."""
         specifier = iox2.AttributeSpecifier.new()
-        for key, value in self.terms.items():
+        for key, value in (self.terms | self.initial).items():
             specifier = specifier.define(iox2.AttributeKey.new(key), iox2.AttributeValue.new(value))
         return specifier
 
     def open(self, open_service: Callable[[], Any]) -> Any:
         """Opens the service, which a controller must have made."""
         service = self._patiently(open_service, None)
-        self._check(service.attributes)
+        self._check(service.attributes, self.terms)
         return service
+
+    def check_start(self, service: Any) -> None:
+        """Compares what both sides must begin with: for a robot that has not moved yet."""
+        self._check(service.attributes, self.initial)
 
     def open_or_create(self, open_service: Callable[[], Any], create: Callable[[], Any]) -> Any:
         """Opens the service if it is there and creates it if it is not: either side may start first."""
         service = self._patiently(open_service, create)
-        self._check(service.attributes)
+        self._check(service.attributes, self.terms)
         return service
 
     def _patiently(self, open_service: Callable[[], Any], create: Callable[[], Any] | None) -> Any:
@@ -168,7 +220,7 @@ class Agreement:
                 failed = cause
             details = self._details()
             if details is not None:
-                self._check(details.static_details.attributes)
+                self._check(details.static_details.attributes, self.terms)
             elif create is None:
                 raise NoController(f"no controller is running on instance {self.instance.name!r}") from failed
             else:
@@ -186,8 +238,8 @@ class Agreement:
         except Exception:  # it is going or coming: the next look tells
             return None
 
-    def _check(self, attributes: Any) -> None:
+    def _check(self, attributes: Any, terms: dict[str, str]) -> None:
         theirs = {a.key.to_string(): a.value.to_string() for a in attributes.values}
-        for key, ours in self.terms.items():
+        for key, ours in terms.items():
             if theirs.get(key) != ours:
                 raise Mismatch(f"{self.service}: this package has the {key} {ours}, the other side {theirs.get(key)}")

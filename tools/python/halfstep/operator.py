@@ -46,6 +46,21 @@ class Answer:
         return self.verdict == Verdict.ACCEPTED
 
 
+def answer(reply: Reply) -> Answer:
+    """What a reply says."""
+    return Answer(
+        Verdict(reply.verdict),
+        Reason(reply.reason),
+        reply.effect_half_step,
+        reply.turn,
+        reply.speed,
+        reply.extension,
+        reply.predicted_margin if reply.known & _MARGIN else None,
+        Fault(reply.fault) if reply.known & _FAULT else None,
+        reply.fault_time if reply.known & _FAULT else None,
+    )
+
+
 class Operator:
     """Asks the controller of an instance."""
 
@@ -66,6 +81,7 @@ class Operator:
             self._client = (
                 self._service.client_builder().backpressure_strategy(iox2.BackpressureStrategy.DiscardData).create()
             )
+            self.instance.take_room("operator")
         if not self.controller_is_there():
             raise NoController(f"no controller is running on instance {self.instance.name!r}")
 
@@ -115,17 +131,7 @@ class Operator:
             if response is not None:
                 reply = Reply.copy_of(response.payload().contents)
                 response.delete()
-                return Answer(
-                    Verdict(reply.verdict),
-                    Reason(reply.reason),
-                    reply.effect_half_step,
-                    reply.turn,
-                    reply.speed,
-                    reply.extension,
-                    reply.predicted_margin if reply.known & _MARGIN else None,
-                    Fault(reply.fault) if reply.known & _FAULT else None,
-                    reply.fault_time if reply.known & _FAULT else None,
-                )
+                return answer(reply)
             if not connected:
                 raise HalfstepError("the controller dropped the request, or left")
             if time.monotonic() - began > timeout_s:
@@ -146,6 +152,7 @@ class Observer:
                 lambda: self._node.service_builder(agreement.name).publish_subscribe(Report).open()
             )
             self._subscriber = service.subscriber_builder().create()
+            self.instance.take_room("observer")
 
     def next_report(self) -> Report | None:
         """The oldest report that has not been read; `None` when there is no new one."""

@@ -19,6 +19,7 @@ _NOTHING_YET = 2**64 - 1
 _SLOTS = 64
 _MAX_READERS, _MAX_NODES = 16, 24
 _GLANCE_S = 0.0002
+_LEAVING_S = 1.0
 # Waking up costs more than a whole turn in lockstep.
 _SPIN_S = 0.002
 
@@ -27,10 +28,10 @@ class _Newest:
     """A service of which only the newest message counts."""
 
     def __init__(
-        self, instance: Instance, node: Any, service: str, message: type[Message], mechanism: int, rate_hz: int
+        self, instance: Instance, node: Any, service: str, message: type[Message], *terms: Any
     ) -> None:
         self.message = message
-        agreement = Agreement(instance, service, iox2.MessagingPattern.Blackboard, mechanism, rate_hz)
+        self.agreement = agreement = Agreement(instance, service, iox2.MessagingPattern.Blackboard, *terms)
 
         def create() -> Any:
             creator = node.service_builder(agreement.name).blackboard_creator(ctypes.c_uint64)
@@ -46,11 +47,16 @@ class _Newest:
 
 class _Writer(_Newest):
     def take(self, role: str) -> None:
-        """Becomes the one writer."""
-        try:
-            self._port = self.blackboard.writer_builder().create()
-        except Exception as cause:  # iceoryx2 has one error type per operation
-            raise AlreadyRunning(f"another {role} is already running") from cause
+        """Becomes the one writer. A process that is just leaving may stand in the way for a while."""
+        began = time.monotonic()
+        while True:
+            try:
+                self._port = self.blackboard.writer_builder().create()
+                break
+            except Exception as cause:  # iceoryx2 has one error type per operation
+                if time.monotonic() - began > _LEAVING_S:
+                    raise AlreadyRunning(f"another {role} is already running, or cannot be removed: {cause!r}") from cause
+            time.sleep(_SPIN_S)
         for slot in range(_SLOTS):
             try:
                 self._entry = self._port.entry(ctypes.c_uint64(slot), self.message)
@@ -86,18 +92,29 @@ class _Reader(_Newest):
 class Plant:
     """The robot of an instance, for the mechanism with this fingerprint (`halfstep check` prints it)."""
 
-    def __init__(self, mechanism: int, instance: Instance | str = "default", rate_hz: int = 1000) -> None:
-        """Connects; when another plant is there `AlreadyRunning`, with another robot, rate or version `Mismatch`.
+    def __init__(
+        self,
+        mechanism: int,
+        instance: Instance | str = "default",
+        rate_hz: int = 1000,
+        lockstep: bool = False,
+        from_stand: bool = False,
+    ) -> None:
+        """Connects; when another plant is there `AlreadyRunning`, with another robot, version or option `Mismatch`.
 
-        `rate_hz` is that of the controller's `realtime.toml`.
+        `rate_hz` is that of the controller's `realtime.toml`, `lockstep` and `from_stand` are its options.
         """
         self.instance = instance if isinstance(instance, Instance) else Instance(instance)
-        with self.instance.turn():
+        terms = (mechanism, rate_hz, "lockstep" if lockstep else "realtime", "stand" if from_stand else "stride")
+        with self.instance.turn(create=True):
             self._node = self.instance.join("plant")
-            self._setpoints = _Reader(self.instance, self._node, "setpoint", Setpoint, mechanism, rate_hz)
-            self._measurements = _Writer(self.instance, self._node, "measurement", Measurement, mechanism, rate_hz)
-            self._measurements.take("plant")
+            self._setpoints = _Reader(self.instance, self._node, "setpoint", Setpoint, *terms)
+            self._measurements = _Writer(self.instance, self._node, "measurement", Measurement, *terms)
             self._setpoints.take()
+            if self._setpoints.newest() is None:
+                self._setpoints.agreement.check_start(self._setpoints.blackboard)
+            self._measurements.take("plant")
+            self.instance.take_room("plant")
 
     def setpoint(self) -> Setpoint | None:
         """The newest setpoint; `None` as long as there is none."""

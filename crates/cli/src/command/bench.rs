@@ -213,7 +213,8 @@ impl BenchArgs {
         options: &[&str],
         work: impl FnOnce(&Instance) -> Result<T, BenchError> + Send,
     ) -> Result<T, CliError> {
-        let instance = own_instance("controller")?.with_rate_hz(realtime.rate.hz());
+        let instance =
+            own_instance("controller")?.with_rate_hz(realtime.rate.hz()).with_lockstep(options.contains(&"--lockstep"));
         let _leftovers = instance.leftovers();
         let arguments =
             self.config.arguments().into_iter().chain(["--instance".into(), instance.name().as_str().into()]);

@@ -56,12 +56,14 @@ impl ControllerArgs {
         let (clock, rate, fingerprint) = (self.runs.clock(), realtime.rate, robot.mechanism.fingerprint);
         let controller = configuration::controller(&robot, parameters, clock, self.runs.from_stand)?;
 
+        let instance = self.instance.of_loop(rate, &self.runs)?;
+        let _leftovers = instance.leftovers();
         let ControllerPorts { mut setpoints, measurements, requests, reports } =
-            ControllerPorts::connect(&self.instance.at_rate(rate)?, fingerprint)?;
+            ControllerPorts::connect(&instance, fingerprint)?;
         let mut cycles = Cycles::new(realtime.timing(clock), measurements, "plant", self.runs.ticks(rate), interrupt);
         let mut queue =
             RequestQueue::new(RequestBridge::new(requests, clock, CAPACITY, realtime.controller.below(BRIDGE_BELOW))?);
-        let worker = ClockedWorker::new(clock, realtime.controller.below(ADMISSION_BELOW));
+        let worker = ClockedWorker::new(clock, realtime.controller.below(ADMISSION_BELOW))?;
         let mut driver = Driver { controller, worker };
         // Who answers may run wherever there is room; who writes down has time.
         realtime.keep_off_the_loop(clock);

@@ -27,8 +27,10 @@ impl InstanceOption {
         Ok(Instance::new(self.instance.as_str())?)
     }
 
-    pub(super) fn at_rate(&self, rate: Rate) -> Result<Instance, CliError> {
-        Ok(self.instance()?.with_rate_hz(rate.hz()))
+    /// The instance as controller and plant see it, with what both must agree on.
+    pub(super) fn of_loop(&self, rate: Rate, runs: &LoopOptions) -> Result<Instance, CliError> {
+        let instance = self.instance()?.with_rate_hz(rate.hz());
+        Ok(instance.with_lockstep(runs.lockstep).with_stand(runs.from_stand))
     }
 }
 

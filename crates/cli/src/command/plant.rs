@@ -76,14 +76,15 @@ impl PlantArgs {
         };
         plant.disturbances = disturbances;
 
-        let PlantPorts { setpoints, mut measurements } =
-            PlantPorts::connect(&self.instance.at_rate(realtime.rate)?, robot.mechanism.fingerprint)?;
+        let instance = self.instance.of_loop(realtime.rate, &self.runs)?;
+        let _leftovers = instance.leftovers();
+        let PlantPorts { setpoints, mut measurements } = PlantPorts::connect(&instance, robot.mechanism.fingerprint)?;
         let clock = self.runs.clock();
         let to = self.recorded(&files, realtime.rate, robot.mechanism.fingerprint)?;
         realtime.keep_off_the_loop(clock);
         let (mut recorder, recorder_thread) = recorder::of_plant(clock, realtime.rate, to, self.child.announced())?;
         let ticks = self.runs.ticks(realtime.rate);
-        let mut cycles = Cycles::new(realtime.timing(clock), setpoints, "controller", ticks, interrupt);
+        let mut cycles = Cycles::new(realtime.timing(clock), setpoints, "controller", ticks, interrupt).following();
 
         // Last: other threads must not be pinned to the loop's core. With an external engine the loop is not pinned, so
         // that the engine need not wait for a core that the loop never leaves.
@@ -115,6 +116,8 @@ impl PlantArgs {
             log_gaps: recorded.lost,
             record_error: recorded.error.map(|error| error.to_string()),
             wall_s: run.wall_ns as f64 * 1e-9,
+            setpoints_repeated: run.setpoints_repeated,
+            setpoints_lost: run.setpoints_lost,
         };
         print(json, &summary)?;
         Ok(Status::success_if(run.fell_at.is_none() && run.unstable.is_none() && summary.record_error.is_none()))

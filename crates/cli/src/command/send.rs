@@ -9,7 +9,7 @@ use std::time::Duration;
 use clap::Subcommand;
 use operator::reply_text::{ReplyJson, reply_text};
 use runtime::now_ns;
-use wire::OperatorPorts;
+use wire::{Instance, OperatorPorts, ReplyMessage, UrgentClient};
 
 use super::connect::patiently;
 use super::options::{InstanceOption, command_timeout, number};
@@ -81,10 +81,8 @@ impl SendArgs {
                 ..self.request.message()
             },
         };
-        let instance = self.instance.instance()?;
-        let operator = patiently(&instance, || OperatorPorts::connect(&instance))?;
         let request = Request { expires_ns: Some(now_ns() + EXPIRY.as_nanos() as u64), ..request };
-        let reply = operator.requests.ask(&(&request).into(), REPLY_TIMEOUT)?.checked().map_err(CliError::new)?;
+        let reply = ask(&self.instance.instance()?, &request)?.checked().map_err(CliError::new)?;
         if json {
             print_json(&ReplyJson::from(&reply))?;
         } else {
@@ -92,6 +90,17 @@ impl SendArgs {
         }
         Ok(Status::success_if(reply.verdict != Verdict::Refused))
     }
+}
+
+/// Sends a request and waits for the reply. A stop takes its own way, which nothing can block.
+fn ask(instance: &Instance, request: &Request) -> Result<ReplyMessage, CliError> {
+    let message = request.into();
+    if request.is_stop()
+        && let Ok(urgent) = UrgentClient::connect(instance)
+    {
+        return Ok(urgent.stop(&message, REPLY_TIMEOUT)?);
+    }
+    Ok(patiently(instance, || OperatorPorts::connect(instance))?.requests.ask(&message, REPLY_TIMEOUT)?)
 }
 
 impl RequestKind {

@@ -62,6 +62,8 @@ pub(super) struct WalkArgs {
 /// The commands if no file is given.
 const DEMO: &str = include_str!("../../../../config/commands_demo.jsonl");
 const POLL_INTERVAL: Duration = Duration::from_millis(10);
+/// Polls until a controller that is leaving must have left.
+const LEAVING_POLLS: u32 = 200;
 /// Polls until the controller must have started.
 const STARTUP_POLLS: u32 = 1000;
 /// How long one process may go on after the other has ended.
@@ -101,7 +103,7 @@ impl WalkArgs {
             engine::mujoco()?;
         }
         // Else the script would be sent to the other controller.
-        if self.instance.is_some() && OperatorPorts::connect(&instance).is_ok() {
+        if self.instance.is_some() && stays_taken(&instance) {
             let instance = instance.name().to_string();
             return Err(ConnectError::AlreadyRunning { role: "controller", instance }.into());
         }
@@ -261,6 +263,17 @@ impl WalkArgs {
         }
         Ok(summary)
     }
+}
+
+/// Whether an instance has a controller that does not leave within two seconds, as one does whose walk was killed.
+fn stays_taken(instance: &Instance) -> bool {
+    (0..LEAVING_POLLS).all(|_| {
+        let is_taken = OperatorPorts::connect(instance).is_ok();
+        if is_taken {
+            std::thread::sleep(POLL_INTERVAL);
+        }
+        is_taken
+    })
 }
 
 /// Waits until the controller takes requests.

@@ -93,6 +93,10 @@ impl Latest for MeasurementMessage {
     fn tick(&self) -> u64 {
         self.tick
     }
+
+    fn time_ns(&self) -> u64 {
+        self.time_ns
+    }
 }
 
 #[cfg(test)]

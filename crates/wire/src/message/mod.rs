@@ -37,6 +37,9 @@ pub trait Latest: ZeroCopySend + Copy + Debug + Send + 'static {
 
     /// The writer's count of periods.
     fn tick(&self) -> u64;
+
+    /// When it was written, on `CLOCK_MONOTONIC` (ns).
+    fn time_ns(&self) -> u64;
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ pub struct RequestMessage {
     /// The controller's tick before which it must not take effect; 0 is at once.
     pub not_before: u64,
     /// Which of the following are asked for: [`TURN`](Self::TURN), [`SPEED`](Self::SPEED),
-    /// [`EXTENSION`](Self::EXTENSION), [`INTENT`](Self::INTENT). What is not stays as it is.
+    /// [`EXTENSION`](Self::EXTENSION), [`INTENT`](Self::INTENT); what is not stays as it is. And [`MORE`](Self::MORE).
     pub present: u32,
     /// An [`Intent`].
     pub intent: u32,
@@ -45,14 +45,20 @@ impl RequestMessage {
     pub const EXTENSION: u32 = 4;
     /// In `present`: `intent` is asked for.
     pub const INTENT: u32 = 8;
+    /// In `present`: another request of the same script follows, which takes effect no earlier. A controller in lockstep
+    /// waits for it, so that the walk does not depend on when it is sent.
+    pub const MORE: u32 = 16;
 
     /// The request, if its codes are known, every number that is present is finite, and the age limit is not negative.
     pub fn checked(&self) -> Result<Request, MessageFault> {
         let check = Check("request");
-        const ALL: u32 =
-            RequestMessage::TURN | RequestMessage::SPEED | RequestMessage::EXTENSION | RequestMessage::INTENT;
+        const ALL: u32 = RequestMessage::TURN
+            | RequestMessage::SPEED
+            | RequestMessage::EXTENSION
+            | RequestMessage::INTENT
+            | RequestMessage::MORE;
         if self.present & !ALL != 0 {
-            let (field, known) = ("present", "sums of 1 (turn), 2 (speed), 4 (extension) and 8 (intent)");
+            let (field, known) = ("present", "sums of 1 (turn), 2 (speed), 4 (extension), 8 (intent) and 16 (more)");
             return Err(MessageFault::UnknownCode { message: check.0, field, value: self.present, known });
         }
         let number = |bit, field, value| {
@@ -156,6 +162,6 @@ mod tests {
         let aged = |age_limit| text(RequestMessage { age_limit, ..stream });
         assert_eq!(aged(-1.0), "request: age_limit is -1; it must be at least 0");
         assert_eq!(aged(f64::INFINITY), "request: age_limit is inf; it must be finite");
-        assert!(text(RequestMessage { present: 16, ..good }).starts_with("request: present is 16; known are sums"));
+        assert!(text(RequestMessage { present: 32, ..good }).starts_with("request: present is 32; known are sums"));
     }
 }

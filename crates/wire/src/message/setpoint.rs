@@ -60,6 +60,10 @@ impl Latest for SetpointMessage {
     fn tick(&self) -> u64 {
         self.tick
     }
+
+    fn time_ns(&self) -> u64 {
+        self.time_ns
+    }
 }
 
 #[cfg(test)]

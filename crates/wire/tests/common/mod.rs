@@ -2,6 +2,9 @@
 
 #![allow(dead_code)]
 
+use std::fs::DirBuilder;
+use std::os::unix::fs::DirBuilderExt;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
@@ -13,13 +16,33 @@ pub(crate) const MECHANISM: u64 = 0x0123_4567_89ab_cdef;
 /// Much longer than anything here takes, even on a loaded machine.
 pub(crate) const LONG: Duration = Duration::from_secs(30);
 
-/// An instance of this test alone, and the guard that removes its files.
-pub(crate) fn own_instance() -> (Instance, Leftovers) {
+/// Removes what is left of a test.
+pub(crate) struct Guard {
+    leftovers: Option<Leftovers>,
+    base: PathBuf,
+}
+
+impl Drop for Guard {
+    fn drop(&mut self) {
+        self.leftovers.take();
+        let _ = std::fs::remove_dir_all(&self.base);
+    }
+}
+
+/// An instance of this test alone, in a runtime folder of its own, and the guard that removes its files.
+pub(crate) fn own_instance() -> (Instance, Guard) {
     static COUNT: AtomicU32 = AtomicU32::new(0);
     let name = format!("test-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
-    let instance = Instance::new(&name).unwrap();
-    let leftovers = instance.leftovers();
-    (instance, leftovers)
+    let base = std::env::temp_dir().join(format!("halfstep-{name}"));
+    DirBuilder::new().mode(0o700).create(&base).unwrap();
+    let instance = Instance::new_in(&name, &base).unwrap();
+    let leftovers = Some(instance.leftovers());
+    (instance, Guard { leftovers, base })
+}
+
+/// The `$XDG_RUNTIME_DIR` of an instance of [`own_instance`].
+pub(crate) fn runtime_folder(instance: &Instance) -> &Path {
+    instance.folder().ancestors().nth(2).unwrap()
 }
 
 /// Polls until there is a value.
