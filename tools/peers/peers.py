@@ -6,17 +6,19 @@ the project needs this.
 """
 
 import argparse
+import hashlib
 import json
+import os
 import subprocess
 import sys
-import tempfile
 import tomllib
 from pathlib import Path
 
 import accuracy
 
 TOP = Path(__file__).resolve().parents[2]
-PACKAGES = ["pin==4.1.0", "cmeel-eigen", "mujoco==4.0.0"]
+LOCK = Path(__file__).with_name("requirements.lock")
+SOURCE = Path(__file__).with_name("pinocchio_bench.cpp")
 # As Pinocchio's own CMake targets ask for.
 DEFINITIONS = [
     "BOOST_MPL_LIMIT_LIST_SIZE=30",
@@ -62,7 +64,7 @@ print(json.dumps({"mujoco_step": least / 1000 * 1e9}))
 def main():
     """Prepares, lets all take turns, prints."""
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    arguments.add_argument("--environment", type=Path, default=Path(tempfile.gettempdir()) / "halfstep-peers")
+    arguments.add_argument("--environment", type=Path, default=cache())
     arguments.add_argument("--rounds", type=int, default=5)
     options = arguments.parse_args()
 
@@ -99,12 +101,24 @@ def run(command, **options):
     return subprocess.run([str(word) for word in command], check=True, stdout=subprocess.PIPE, text=True, **options).stdout
 
 
+def cache():
+    """A folder of the user's own, another one for other packages or another source."""
+    base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    name = hashlib.sha256(LOCK.read_bytes() + SOURCE.read_bytes()).hexdigest()[:16]
+    return base / "halfstep" / f"peers-{name}"
+
+
 def environment(folder):
-    """A Python with the peers in it."""
-    python = folder / "bin/python"
-    if not python.exists():
-        run([sys.executable, "-m", "venv", folder])
-        run([python, "-m", "pip", "install", "-q", *PACKAGES])
+    """A Python with the peers in it. What lies in the folder is executed: it must belong to this user."""
+    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    if folder.stat().st_uid != os.getuid() or folder.stat().st_mode & 0o022:
+        sys.exit(f"{folder} belongs to another user, or others may write to it: remove it, or choose another --environment")
+    python, ready = folder / "bin/python", folder / "ready"
+    if not (ready.exists() and python.exists()):
+        run([sys.executable, "-I", "-m", "venv", "--clear", folder])
+        pip = [python, "-I", "-m", "pip", "install", "-q", "--isolated", "--no-input", "--no-deps"]
+        run([*pip, "--require-hashes", "--only-binary=:all:", "-r", LOCK])
+        ready.write_text(LOCK.read_text())
     return python
 
 
@@ -117,9 +131,8 @@ def pinocchio(folder, python):
         prefix /= "cmeel.prefix"
         include = [f"-I{prefix}/include", f"-I{prefix}/include/eigen3"]
         link = [f"-L{prefix}/lib", f"-Wl,-rpath,{prefix}/lib", *(f"-l{name}" for name in LIBRARIES)]
-        source = Path(__file__).with_name("pinocchio_bench.cpp")
         flags = ["-std=c++17", "-O3", "-DNDEBUG", *(f"-D{each}" for each in DEFINITIONS)]
-        run(["g++", *flags, *include, source, *link, "-o", binary])
+        run(["g++", *flags, *include, SOURCE, *link, "-o", binary])
     return binary
 
 

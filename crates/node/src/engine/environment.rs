@@ -4,7 +4,6 @@
 //! several walks start at once, a lock lets one create it while the others wait.
 
 use std::fs::{self, File};
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::time::Duration;
@@ -14,11 +13,27 @@ use indicatif::ProgressBar;
 use crate::tell::tell;
 
 const REQUIREMENTS: &str = include_str!("../../../../tools/mujoco_plant/requirements.txt");
+/// All packages that they need, each with its version and the hashes of its files.
+const LOCK: &str = include_str!("../../../../tools/mujoco_plant/requirements.lock");
 const PLANT: &str = include_str!("../../../../tools/mujoco_plant/plant.py");
 /// Name of the file that exists once the environment is complete.
 const READY: &str = "ready";
 /// Oldest Python that the packages run on.
 const PYTHON_MIN: (u32, u32) = (3, 11);
+/// Installs exactly the listed files, whatever the user's settings of pip and Python say, and builds nothing.
+const PIP: [&str; 11] = [
+    "-I",
+    "-m",
+    "pip",
+    "install",
+    "--isolated",
+    "--disable-pip-version-check",
+    "--no-input",
+    "--no-deps",
+    "--require-hashes",
+    "--only-binary=:all:",
+    "-r",
+];
 /// How many of the last lines of a failed command's output an error shows.
 const LINES_SHOWN: usize = 6;
 
@@ -61,19 +76,19 @@ pub fn python() -> Result<Command, EnvironmentError> {
     if !is_installed() {
         install(&folder, &python)?;
         let ready = folder.join(READY);
-        fs::write(&ready, REQUIREMENTS).map_err(|error| cannot(&ready, error))?;
+        fs::write(&ready, LOCK).map_err(|error| cannot(&ready, error))?;
     }
     Ok(Command::new(python))
 }
 
-/// Whether the environment exists.
+/// Whether the environment exists. After an upgrade of the system its Python may be gone.
 pub fn is_installed() -> bool {
-    folder().is_ok_and(|folder| folder.join(READY).exists())
+    folder().is_ok_and(|folder| folder.join(READY).exists() && folder.join("bin/python").exists())
 }
 
 /// Folder of the environment: one for each list of packages.
 fn folder() -> Result<PathBuf, EnvironmentError> {
-    Ok(cache()?.join(format!("mujoco-{:016x}", fingerprint(REQUIREMENTS))))
+    Ok(cache()?.join(format!("mujoco-{:016x}", fingerprint(LOCK))))
 }
 
 /// Creates the environment.
@@ -85,7 +100,11 @@ fn install(folder: &Path, python: &Path) -> Result<(), EnvironmentError> {
     bar.enable_steady_tick(Duration::from_millis(100));
 
     bar.set_message("creating the environment");
-    let made = run(Command::new(&system).args(["-m", "venv"]).arg(folder))?;
+    // Those of a Python that is gone; nothing is left of an attempt that was interrupted.
+    for former in ["bin", "lib"] {
+        let _ = fs::remove_dir_all(folder.join(former));
+    }
+    let made = run(Command::new(&system).args(["-I", "-m", "venv"]).arg(folder))?;
     if !made.status.success() {
         bar.finish_and_clear();
         let said = last_lines(&made);
@@ -95,17 +114,19 @@ fn install(folder: &Path, python: &Path) -> Result<(), EnvironmentError> {
         )));
     }
     bar.set_message(format!("installing {} (about 60 MB, once)", packages.join(", ")));
-    let pip = ["-m", "pip", "install", "--disable-pip-version-check", "--no-input"];
-    let installed = run(Command::new(python).args(pip).args(&packages))?;
+    let lock = folder.join("requirements.lock");
+    fs::write(&lock, LOCK).map_err(|error| EnvironmentError(format!("{}: {error}", lock.display())))?;
+    let installed = run(Command::new(python).args(PIP).arg(&lock))?;
     bar.finish_and_clear();
     if !installed.status.success() {
         let said = last_lines(&installed);
         return Err(EnvironmentError(format!(
             "cannot install {}: {said}\nIs the Python package registry reachable? Try again with \
-             `{} -m pip install {}`, or walk with `--plant rust`.",
+             `{} {} {}`, or walk with `--plant rust`.",
             packages.join(" and "),
             python.display(),
-            packages.join(" ")
+            PIP.join(" "),
+            lock.display()
         )));
     }
     tell(format_args!("installed {}", packages.join(" and ")));
@@ -151,9 +172,24 @@ fn cache() -> Result<PathBuf, EnvironmentError> {
     Ok(cache.ok_or_else(|| EnvironmentError(no_home.to_owned()))?.join("halfstep"))
 }
 
-/// A number that distinguishes texts; it may differ between machines.
+/// A number that distinguishes texts, the same everywhere: their FNV-1a hash.
 fn fingerprint(text: &str) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    text.hash(&mut hasher);
-    hasher.finish()
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_package_is_locked_with_its_hashes() {
+        for package in REQUIREMENTS.split_whitespace() {
+            assert!(LOCK.contains(&format!("{package} \\\n    --hash=sha256:")), "{package} is not in the lock file");
+        }
+    }
+
+    #[test]
+    fn folder_names_do_not_depend_on_the_compiler() {
+        assert_eq!(fingerprint("foobar"), 0x8594_4171_f739_67e8);
+    }
 }

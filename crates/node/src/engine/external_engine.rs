@@ -1,9 +1,12 @@
 //! A process that computes the robot's physics for this one.
 
 use interface::{Measurement, Setpoint};
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
 use std::os::unix::process::CommandExt;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::time::Duration;
+
+use crossbeam::channel::{Receiver, RecvTimeoutError, Sender, bounded};
 
 use interchange::mjcf::mjcf_text;
 use model::{Joint, Mechanism};
@@ -70,10 +73,23 @@ struct Hello {
 pub struct ExternalEngine {
     child: Child,
     setpoints: Option<ChildStdin>,
-    states: BufReader<ChildStdout>,
+    /// What a thread has read of the engine's output: reading by itself would wait for a hung engine without end.
+    answers: Receiver<std::io::Result<Answer>>,
     /// The engine's name as it reports it.
     pub name: String,
 }
+
+/// What an engine writes: first a line, then states.
+#[derive(Debug)]
+enum Answer {
+    Line(String),
+    State(Box<[u8; STATE_LEN * size_of::<f64>()]>),
+}
+
+/// How long an engine may take to load the robot.
+const START_MAX: Duration = Duration::from_secs(120);
+/// How long an engine may take to compute a control period.
+const STEP_MAX: Duration = Duration::from_secs(10);
 
 /// Why an engine cannot be used. The engine itself may have printed more on stderr.
 #[derive(Debug, thiserror::Error)]
@@ -95,6 +111,12 @@ pub enum EngineError {
     /// The engine's process has ended.
     #[error("the engine has ended: {0}")]
     Ended(std::io::Error),
+    /// The engine runs but does not answer.
+    #[error("the engine has not answered for {} s", .0.as_secs())]
+    Silent(Duration),
+    /// The operating system refused a thread to read from the engine.
+    #[error("cannot start a thread: {0}")]
+    Thread(std::io::Error),
     /// The engine's protocol is a different one.
     #[error(
         "engine protocol mismatch: expected protocol {PROTOCOL} with records of {SETPOINT_LEN} and {STATE_LEN} \
@@ -174,15 +196,18 @@ impl ExternalEngine {
             .spawn()
             .map_err(|cause| EngineError::Start { program, cause })?;
         let (setpoints, states) = (child.stdin.take(), child.stdout.take().expect("a pipe was asked for"));
-        let mut engine = Self { child, setpoints, states: BufReader::new(states), name: String::new() };
+        let (outgoing, answers) = bounded(1);
+        let mut engine = Self { child, setpoints, answers, name: String::new() };
+        std::thread::Builder::new()
+            .name("engine".to_owned())
+            .spawn(move || read_answers(BufReader::new(states), &outgoing))
+            .map_err(EngineError::Thread)?;
         let line = serde_json::to_string(setup).map_err(|error| EngineError::Mismatch(error.to_string()))?;
         engine.send(format!("{line}\n").as_bytes())?;
 
-        let mut answer = String::new();
-        engine.states.read_line(&mut answer).map_err(EngineError::Ended)?;
-        if answer.is_empty() {
-            return Err(EngineError::Ended(std::io::ErrorKind::UnexpectedEof.into()));
-        }
+        let Answer::Line(answer) = engine.answer(START_MAX)? else {
+            return Err(EngineError::Mismatch("a state before the first line".to_owned()));
+        };
         let hello = serde_json::from_str::<Hello>(&answer).ok();
         let fits = |hello: &Hello| (hello.protocol, hello.setpoint, hello.state) == (PROTOCOL, SETPOINT_LEN, STATE_LEN);
         let hello = hello.filter(fits).ok_or_else(|| EngineError::Mismatch(answer.trim().to_owned()))?;
@@ -196,17 +221,44 @@ impl ExternalEngine {
     /// The engine has ended, or its state is not finite.
     pub fn step(&mut self, plant: &mut Plant, setpoint: &Setpoint) -> Result<Measurement, EngineError> {
         self.send(&encode_setpoint(setpoint))?;
-        let mut state = [0; STATE_LEN * size_of::<f64>()];
-        self.states.read_exact(&mut state).map_err(EngineError::Ended)?;
+        let Answer::State(state) = self.answer(STEP_MAX)? else {
+            return Err(EngineError::Mismatch("a second line".to_owned()));
+        };
         let state = decode_state(&state).ok_or(EngineError::NotFinite { time: plant.time() })?;
         Ok(plant.adopt(state))
     }
 
+    fn answer(&mut self, timeout: Duration) -> Result<Answer, EngineError> {
+        match self.answers.recv_timeout(timeout) {
+            Ok(answer) => answer.map_err(EngineError::Ended),
+            Err(RecvTimeoutError::Timeout) => Err(EngineError::Silent(timeout)),
+            Err(RecvTimeoutError::Disconnected) => Err(EngineError::Ended(ErrorKind::UnexpectedEof.into())),
+        }
+    }
+
     fn send(&mut self, bytes: &[u8]) -> Result<(), EngineError> {
         let Some(pipe) = &mut self.setpoints else {
-            return Err(EngineError::Ended(std::io::ErrorKind::BrokenPipe.into()));
+            return Err(EngineError::Ended(ErrorKind::BrokenPipe.into()));
         };
         pipe.write_all(bytes).and_then(|()| pipe.flush()).map_err(EngineError::Ended)
+    }
+}
+
+/// Reads what an engine writes until it ends, or until nobody wants it any more.
+fn read_answers(mut output: BufReader<ChildStdout>, answers: &Sender<std::io::Result<Answer>>) {
+    let mut line = String::new();
+    let first = match output.read_line(&mut line) {
+        Ok(0) => Err(ErrorKind::UnexpectedEof.into()),
+        Ok(_) => Ok(Answer::Line(line)),
+        Err(error) => Err(error),
+    };
+    let mut ends = first.is_err();
+    ends |= answers.send(first).is_err();
+    while !ends {
+        let mut state = Box::new([0; STATE_LEN * size_of::<f64>()]);
+        let read = output.read_exact(&mut *state).map(|()| Answer::State(state));
+        ends = read.is_err();
+        ends |= answers.send(read).is_err();
     }
 }
 
