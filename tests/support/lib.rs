@@ -4,6 +4,8 @@
 pub mod command_line;
 pub mod counting;
 #[cfg(feature = "command-line")]
+pub mod kill_trial;
+#[cfg(feature = "command-line")]
 pub mod paper;
 pub mod pushing;
 #[cfg(feature = "command-line")]
