@@ -13,6 +13,8 @@ mod cores;
 mod faults;
 mod files;
 mod grid;
+#[cfg(feature = "processes")]
+mod kill;
 mod margins;
 #[cfg(feature = "mujoco")]
 mod mujoco;
@@ -22,6 +24,8 @@ mod pushes;
 mod single;
 mod spoiling;
 mod start_stop;
+#[cfg(feature = "processes")]
+mod starvation;
 mod streams;
 mod table;
 mod variations;
@@ -61,6 +65,10 @@ enum Survey {
     Files(files::Options),
     /// The predicted least margin of half-steps against the measured one
     Margins(margins::Options),
+    /// `kill -9` of every process in every phase; a stop during every kind of flood. In real time, with the halfstep
+    /// program beside this one; --kills 1000 for acceptance
+    #[cfg(feature = "processes")]
+    Kill(kill::Options),
     /// What is granted, walked in MuJoCo
     #[cfg(feature = "mujoco")]
     Mujoco(mujoco::Options),
@@ -85,6 +93,8 @@ fn main() -> ExitCode {
         Survey::Needs(options) => needs::survey(options),
         Survey::Files(options) => files::survey(options),
         Survey::Margins(options) => margins::survey(options),
+        #[cfg(feature = "processes")]
+        Survey::Kill(options) => kill::survey(options),
         #[cfg(feature = "mujoco")]
         Survey::Mujoco(options) => mujoco::survey(options),
         #[cfg(feature = "mujoco")]
