@@ -270,12 +270,16 @@ impl Trial<'_> {
         }
     }
 
-    fn end(&mut self, process: Running) {
-        process.ask_to_end();
+    fn end(&mut self, mut process: Running) {
+        if process.is_running() {
+            process.ask_to_end();
+        } else {
+            self.aftermath.stuck.push("it ended by itself".to_owned());
+        }
         let ended = process.finish();
         // A fall is a failure, too; a process that a signal ended has no code.
-        if ended.code.is_none() || ended.stderr.contains("panicked") {
-            self.aftermath.stuck.push(format!("it ended badly: {}", ended.stderr));
+        if ended.code.is_none() || ended.stderr.contains("panicked") || !self.aftermath.stuck.is_empty() {
+            self.aftermath.stuck.push(format!("it ended badly ({:?}): {}", ended.code, ended.stderr));
         }
     }
 

@@ -77,8 +77,7 @@ fn kills(options: &Options, program: &str) -> bool {
         aftermath
     });
 
-    let all = || std::iter::once((Victim::ALL.as_slice(), Phase::Starting)).map(|(victims, phase)| (victims, phase));
-    let cells = all().flat_map(|(victims, phase)| victims.iter().map(move |&victim| (victim, phase))).chain(later);
+    let cells = Victim::ALL.into_iter().map(|victim| (victim, Phase::Starting)).chain(later);
     let rows: Vec<Vec<String>> = cells
         .filter_map(|cell| {
             let of_cell: Vec<&Aftermath> =

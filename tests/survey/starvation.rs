@@ -146,7 +146,16 @@ fn stop_once(
 ) -> Result<(), String> {
     let walk = Request { intent: Some(Intent::Walk), ..Request::new(Source::Console) };
     let operator = OperatorPorts::connect(line.wire_instance()).map_err(|error| error.to_string())?;
-    operator.requests.ask(&(&walk).into(), SAFETY).map_err(|error| error.to_string())?;
+    let began = Instant::now();
+    // What others sent before they left may still fill the queue.
+    while operator.requests.ask(&(&walk).into(), SAFETY).map_err(|error| error.to_string())?.verdict
+        != Verdict::Accepted.code()
+    {
+        if began.elapsed() > SAFETY {
+            return Err("it never walks".to_owned());
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
     drop(operator);
     wait_for(observer, Mode::Walking)?;
 

@@ -12,7 +12,8 @@ use serde::de::DeserializeOwned;
 
 use crate::error::CliError;
 
-/// How long a process may take to end after it was asked to: it still writes what it has recorded, maybe to a slow disk.
+/// How long a process may take to end after it was asked to: it still writes what it has recorded, maybe to a slow
+/// disk.
 const END_TIMEOUT: Duration = Duration::from_secs(60);
 const POLL_INTERVAL: Duration = Duration::from_millis(5);
 
@@ -115,13 +116,26 @@ impl Drop for Process {
     }
 }
 
-/// Makes this process end when the process `parent`, which started it, ends.
+/// Makes this process end when the process `parent`, which started it, ends: at once, so that a process that is still
+/// starting does not get in the way of the next one.
 ///
 /// # Errors
 /// The parent has ended already, or the operating system refuses.
 pub(crate) fn end_with_parent(parent: u32) -> Result<(), CliError> {
-    rustix::process::set_parent_process_death_signal(Some(Signal::TERM))
-        .map_err(|error| CliError::new(format!("cannot bind this process to its parent: {error}")))?;
+    set_death_signal(Signal::KILL)?;
     let is_there = rustix::process::getppid().is_some_and(|pid| pid.as_raw_nonzero().get() as u32 == parent);
     if is_there { Ok(()) } else { Err(CliError::new("the process that started this one is gone")) }
+}
+
+/// After [`end_with_parent`]: from now on this process is only asked to end, as it has something to write.
+///
+/// # Errors
+/// The operating system refuses.
+pub(crate) fn end_cleanly_with_parent() -> Result<(), CliError> {
+    set_death_signal(Signal::TERM)
+}
+
+fn set_death_signal(signal: Signal) -> Result<(), CliError> {
+    rustix::process::set_parent_process_death_signal(Some(signal))
+        .map_err(|error| CliError::new(format!("cannot bind this process to its parent: {error}")))
 }

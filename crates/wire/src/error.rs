@@ -2,9 +2,6 @@
 
 use std::fmt;
 
-use crate::MAX_OPERATORS;
-use crate::shared_memory::FOLDER;
-
 /// Why a process could not connect to an instance.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ConnectError {
@@ -61,11 +58,13 @@ pub enum ConnectError {
     },
     /// No more operators can connect.
     #[error(
-        "{MAX_OPERATORS} operators are connected to instance `{instance}`, as many as can be{}; end one of them. \
+        "{max} operators are connected to instance `{instance}`, as many as can be{}; end one of them. \
          `halfstep send stop` gets through all the same",
         listed(processes)
     )]
     Full {
+        /// Most operators at a time.
+        max: usize,
         /// The instance's name.
         instance: String,
         /// Ids of the processes that are connected.
@@ -73,7 +72,7 @@ pub enum ConnectError {
     },
     /// Shared memory has no room for another process.
     #[error(
-        "shared memory ({FOLDER}) has no room for this {role}: it needs {}, and {} are free; remove other files there, \
+        "shared memory (/dev/shm) has no room for this {role}: it needs {}, and {} are free; remove other files there, \
          or give it more (in a container: docker run --shm-size=256m)",
         mebibytes(*needed),
         mebibytes(*free)

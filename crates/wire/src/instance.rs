@@ -13,7 +13,6 @@ use iceoryx2::prelude::{
 use rustix::process::getuid;
 
 use crate::connect_lock::ConnectLock;
-use crate::leftovers::{Leftovers, Sweep};
 use crate::shared_memory::{self, Role};
 use crate::{ConnectError, DEFAULT_RATE_HZ, Elsewhere, Ipc, PROTOCOL, runtime_folder};
 
@@ -142,20 +141,6 @@ impl Instance {
         &self.name
     }
 
-    /// Removes everything that former processes have left behind. While any process is connected, only the leftovers of
-    /// dead processes are removed. Too slow for the control loop.
-    ///
-    /// # Errors
-    /// The folder of the instance cannot be read or removed.
-    pub fn remove_leftovers(&self) -> Result<(), ConnectError> {
-        Sweep::of(self, self.connect_lock()?).run()
-    }
-
-    /// A guard that removes the leftovers when it is dropped: whoever leaves last leaves nothing.
-    pub fn leftovers(&self) -> Leftovers {
-        Leftovers::new(self.clone())
-    }
-
     pub(crate) fn protocol(&self) -> u32 {
         self.protocol
     }
@@ -203,6 +188,11 @@ impl Instance {
     /// Takes the memory of what a process has connected to; it must still hold the lock.
     pub(crate) fn take_room(&self, _lock: &ConnectLock, role: Role) -> Result<(), ConnectError> {
         shared_memory::take_room(&self.prefix(), role)
+    }
+
+    /// Whether a controller or a plant is connected, or about to connect.
+    pub fn is_in_use(&self) -> bool {
+        [Role::Controller, Role::Plant].iter().any(|&role| !self.processes(role).is_empty())
     }
 
     /// Ids of the processes that are connected in a role.

@@ -19,16 +19,26 @@ use crate::{ConnectError, Instance, Ipc, shared_memory};
 /// How long a process that leaves waits for others that connect: they are there then, and nothing is to be removed.
 const PATIENCE: Duration = Duration::from_secs(1);
 
+impl Instance {
+    /// Removes everything that former processes have left behind. While any process is connected, only the leftovers of
+    /// dead processes are removed. Too slow for the control loop.
+    ///
+    /// # Errors
+    /// The folder of the instance cannot be read or removed.
+    pub fn remove_leftovers(&self) -> Result<(), ConnectError> {
+        Sweep::of(self, self.connect_lock()?).run()
+    }
+
+    /// A guard that removes the leftovers when it is dropped: whoever leaves last leaves nothing.
+    pub fn leftovers(&self) -> Leftovers {
+        Leftovers(self.clone())
+    }
+}
+
 /// Removes what is left of an instance when dropped; see [`Instance::remove_leftovers`].
 #[derive(Debug)]
 #[must_use = "dropping it removes the leftovers at once"]
 pub struct Leftovers(Instance);
-
-impl Leftovers {
-    pub(crate) fn new(instance: Instance) -> Self {
-        Self(instance)
-    }
-}
 
 impl Drop for Leftovers {
     fn drop(&mut self) {
@@ -43,41 +53,61 @@ impl Drop for Leftovers {
 }
 
 /// The removal of an instance's leftovers.
-pub(crate) struct Sweep<'a> {
+struct Sweep<'a> {
     instance: &'a Instance,
-    _lock: ConnectLock,
+    lock: ConnectLock,
 }
 
 impl<'a> Sweep<'a> {
-    pub(crate) fn of(instance: &'a Instance, lock: ConnectLock) -> Self {
-        Self { instance, _lock: lock }
+    fn of(instance: &'a Instance, lock: ConnectLock) -> Self {
+        Self { instance, lock }
     }
 
     /// Removes what dead processes have left, and everything if no process is connected.
-    pub(crate) fn run(self) -> Result<(), ConnectError> {
-        let Self { instance, .. } = self;
-        let mut in_use = false;
-        Node::<Ipc>::list(instance.config(), |state| {
-            match state {
-                NodeState::Alive(_) | NodeState::Inaccessible(_) => in_use = true,
-                // If it fails, the files are removed below or by the next attempt.
-                NodeState::Dead(dead) => drop(dead.try_remove_stale_resources()),
-                // The process was killed while it connected.
-                NodeState::Undefined(_) => {}
-            }
-            CallbackProgression::Continue
-        })
-        .map_err(|cause| instance.memory_error("list the processes of", cause))?;
-        // A process whose folder was removed by force is not listed.
-        if in_use || shared_memory::is_mapped(&instance.prefix()) {
+    fn run(self) -> Result<(), ConnectError> {
+        let Self { instance, lock } = self;
+        if clean_up(instance, &lock)? {
             return Ok(());
         }
         let failed = |cause| instance.memory_error("remove the files of", cause);
-        for file in shared_memory::files(&instance.prefix()).map_err(failed)? {
-            removed(std::fs::remove_file(file)).map_err(failed)?;
-        }
         removed(std::fs::remove_dir_all(instance.folder())).map_err(failed)
     }
+}
+
+/// Removes what dead processes have left: everything but the lock if no process is connected, so that a process that
+/// was killed while it connected leaves nothing half-made to the next one. Whether a process is connected.
+///
+/// # Errors
+/// The files cannot be read or removed.
+pub(crate) fn clean_up(instance: &Instance, _lock: &ConnectLock) -> Result<bool, ConnectError> {
+    shared_memory::remove_half_made(&instance.prefix(), shared_memory::HALF_MADE_AFTER);
+    let mut in_use = false;
+    Node::<Ipc>::list(instance.config(), |state| {
+        match state {
+            NodeState::Alive(_) | NodeState::Inaccessible(_) => in_use = true,
+            // If it fails, the files are removed below or by the next attempt.
+            NodeState::Dead(dead) => drop(dead.try_remove_stale_resources()),
+            // The process was killed while it connected.
+            NodeState::Undefined(_) => {}
+        }
+        CallbackProgression::Continue
+    })
+    .map_err(|cause| instance.memory_error("list the processes of", cause))?;
+    // A process whose folder was removed by force is not listed.
+    if in_use || shared_memory::is_mapped(&instance.prefix()) {
+        return Ok(true);
+    }
+    let failed = |cause| instance.memory_error("remove the files of", cause);
+    for file in shared_memory::files(&instance.prefix()).map_err(failed)? {
+        removed(std::fs::remove_file(file)).map_err(failed)?;
+    }
+    for entry in std::fs::read_dir(instance.folder()).map_err(failed)?.flatten() {
+        // The lock and the socket are files.
+        if entry.path().is_dir() {
+            removed(std::fs::remove_dir_all(entry.path())).map_err(failed)?;
+        }
+    }
+    Ok(false)
 }
 
 /// Removes the leftovers of all other instances of this user in the same runtime folder.

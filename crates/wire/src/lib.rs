@@ -22,8 +22,8 @@
 //!
 //! * An **instance** ([`Instance`]) is one robot: a name, and the memory that its processes share.
 //! * **Ports** are what a process connects with: [`ControllerPorts`] and [`PlantPorts`], of which an instance has one
-//!   each, and several [`OperatorPorts`], which send requests, and [`ObserverPorts`], which receive reports. The ports of
-//!   a process are public fields; each may be moved to another thread.
+//!   each, and several [`OperatorPorts`], which send requests, and [`ObserverPorts`], which receive reports. The ports
+//!   of a process are public fields; each may be moved to another thread.
 //! * The **tick** of a message is the writer's count of control periods. [`NEVER_WRITTEN`] marks a message that was
 //!   never written; readers turn it into `None`. To find out whether a message is new, compare its tick with the last
 //!   one for *inequality*: a restarted writer counts from 0 again. The last message of a writer that has disconnected

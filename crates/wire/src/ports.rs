@@ -1,10 +1,13 @@
 //! The ports of an instance's processes: everything through which they exchange messages.
 
+use iceoryx2::prelude::Node;
+
+use crate::connect_lock::ConnectLock;
 use crate::latest::LatestService;
-use crate::leftovers::sweep_others;
+use crate::leftovers::{clean_up, sweep_others};
 use crate::shared_memory::Role;
 use crate::{
-    ConnectError, Instance, LatestReader, LatestWriter, MeasurementMessage, ReportPublisher, ReportSubscriber,
+    ConnectError, Instance, Ipc, LatestReader, LatestWriter, MeasurementMessage, ReportPublisher, ReportSubscriber,
     RequestClient, RequestServer, SetpointMessage,
 };
 
@@ -31,7 +34,7 @@ impl ControllerPorts {
     pub fn connect(instance: &Instance, mechanism: u64) -> Result<Self, ConnectError> {
         sweep_others(instance);
         let lock = instance.connect_lock()?;
-        let node = instance.open_node(&lock, Role::Controller)?;
+        let node = join(instance, &lock, Role::Controller)?;
         let setpoint = LatestService::open::<SetpointMessage>(instance, &node, SETPOINT, mechanism)?;
         let measurement = LatestService::open::<MeasurementMessage>(instance, &node, MEASUREMENT, mechanism)?;
         check_start(&setpoint)?;
@@ -45,6 +48,12 @@ impl ControllerPorts {
         instance.take_room(&lock, Role::Controller)?;
         Ok(ports)
     }
+}
+
+/// Joins an instance that no killed process has left half-made.
+fn join(instance: &Instance, lock: &ConnectLock, role: Role) -> Result<Node<Ipc>, ConnectError> {
+    clean_up(instance, lock)?;
+    instance.open_node(lock, role)
 }
 
 /// Compares the start posture of both sides as long as no controller has moved the robot.
@@ -70,7 +79,7 @@ impl PlantPorts {
     pub fn connect(instance: &Instance, mechanism: u64) -> Result<Self, ConnectError> {
         sweep_others(instance);
         let lock = instance.connect_lock()?;
-        let node = instance.open_node(&lock, Role::Plant)?;
+        let node = join(instance, &lock, Role::Plant)?;
         let setpoint = LatestService::open::<SetpointMessage>(instance, &node, SETPOINT, mechanism)?;
         let measurement = LatestService::open::<MeasurementMessage>(instance, &node, MEASUREMENT, mechanism)?;
         check_start(&setpoint)?;
@@ -94,7 +103,7 @@ impl OperatorPorts {
     /// No controller is running, or one of another version, or too many operators are connected.
     pub fn connect(instance: &Instance) -> Result<Self, ConnectError> {
         let lock = instance.connect_lock_if_there()?;
-        let node = instance.open_node(&lock, Role::Operator)?;
+        let node = join(instance, &lock, Role::Operator)?;
         let ports = Self { requests: RequestClient::connect(instance, &node)? };
         instance.take_room(&lock, Role::Operator)?;
         Ok(ports)
@@ -116,7 +125,7 @@ impl ObserverPorts {
     /// No controller is running, or one of another version, or too many observers are connected.
     pub fn connect(instance: &Instance) -> Result<Self, ConnectError> {
         let lock = instance.connect_lock_if_there()?;
-        let node = instance.open_node(&lock, Role::Observer)?;
+        let node = join(instance, &lock, Role::Observer)?;
         let ports = Self { reports: ReportSubscriber::connect(instance, &node)? };
         instance.take_room(&lock, Role::Observer)?;
         Ok(ports)

@@ -90,23 +90,23 @@ impl RequestServer {
         }
         self.is_urgent_next = true;
         match self.server.receive() {
-            Ok(Some(request)) => Ok(Some((*request, Responder(Way::SharedMemory(request))))),
+            Ok(Some(request)) => Ok(Some((*request, Responder(ReplyPath::SharedMemory(request))))),
             Ok(None) => Ok(self.next_urgent()),
             Err(cause) => Err(TransportError { action: "receive a request", cause: cause.to_string() }),
         }
     }
 
     fn next_urgent(&self) -> Option<(RequestMessage, Responder)> {
-        self.urgent.receive().map(|(message, responder)| (message, Responder(Way::Socket(responder))))
+        self.urgent.receive().map(|(message, responder)| (message, Responder(ReplyPath::Socket(responder))))
     }
 }
 
 /// The means to reply to one request. It may be kept, for instance until the request takes effect. If it is dropped
 /// without a reply, the operator gets [`RequestError::Dropped`].
-pub struct Responder(Way);
+pub struct Responder(ReplyPath);
 
 /// The way on which a request came, and its reply goes.
-enum Way {
+enum ReplyPath {
     SharedMemory(ActiveRequest<Ipc, RequestMessage, (), ReplyMessage, ()>),
     Socket(UrgentResponder),
 }
@@ -115,16 +115,16 @@ impl Responder {
     /// Whether the operator still waits for the reply. A stop that came through the socket is carried out in any case.
     pub fn is_wanted(&self) -> bool {
         match &self.0 {
-            Way::SharedMemory(request) => request.is_connected(),
-            Way::Socket(_) => true,
+            ReplyPath::SharedMemory(request) => request.is_connected(),
+            ReplyPath::Socket(_) => true,
         }
     }
 
     /// Sends the reply; `false` if it could not be delivered because the operator has disconnected.
     pub fn reply(self, reply: &ReplyMessage) -> bool {
         match self.0 {
-            Way::SharedMemory(request) => request.send_copy(*reply).is_ok(),
-            Way::Socket(responder) => responder.reply(reply),
+            ReplyPath::SharedMemory(request) => request.send_copy(*reply).is_ok(),
+            ReplyPath::Socket(responder) => responder.reply(reply),
         }
     }
 }
@@ -152,7 +152,7 @@ impl RequestClient {
                 |cause| match cause {
                     ClientCreateError::ExceedsMaxSupportedClients => {
                         let processes = instance.processes(Role::Operator);
-                        ConnectError::Full { instance: instance.name().to_string(), processes }
+                        ConnectError::Full { max: MAX_OPERATORS, instance: instance.name().to_string(), processes }
                     }
                     cause => contract.memory_error("connect to", cause),
                 },

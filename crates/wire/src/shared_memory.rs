@@ -7,6 +7,7 @@
 use std::fs::{DirEntry, OpenOptions, Permissions};
 use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use rustix::fs::{FallocateFlags, fallocate, statvfs};
 use rustix::io::Errno;
@@ -19,6 +20,10 @@ pub(crate) const FOLDER: &str = "/dev/shm";
 
 /// How the name of the file ends in which iceoryx2 counts the processes of an instance.
 const FORESEEN: &str = ".global_mgmt";
+
+/// After this time a file that is not complete was left by a process that was killed while it made it: making one takes
+/// microseconds.
+pub(crate) const HALF_MADE_AFTER: Duration = Duration::from_millis(100);
 
 /// What a process is in an instance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,6 +122,30 @@ pub(crate) fn files(prefix: &str) -> std::io::Result<Vec<PathBuf>> {
             && file.metadata().is_ok_and(|metadata| metadata.uid() == getuid().as_raw())
     };
     Ok(std::fs::read_dir(FOLDER)?.flatten().filter(is_ours).map(|file| file.path()).collect())
+}
+
+/// Removes the files of this user whose names begin with `prefix` and that nobody will complete. iceoryx2 0.10 waits
+/// without end for a file without a length; one that is not complete yet has only the permission to write.
+///
+/// * `patience` – how long to wait for files that are so new that their maker may complete them
+pub(crate) fn remove_half_made(prefix: &str, patience: Duration) {
+    const MAY_READ: u32 = 0o400;
+    for file in files(prefix).unwrap_or_default() {
+        // Gone, or complete, in the meantime: both are fine.
+        while let Ok(metadata) = file.metadata()
+            && metadata.mode() & MAY_READ == 0
+        {
+            let age = metadata.modified().ok().and_then(|time| time.elapsed().ok()).unwrap_or_default();
+            let rest = HALF_MADE_AFTER.saturating_sub(age);
+            if rest.is_zero() {
+                let _ = std::fs::remove_file(&file);
+            } else if rest <= patience {
+                std::thread::sleep(rest);
+            } else {
+                break;
+            }
+        }
+    }
 }
 
 /// Whether a living process has mapped a file whose name begins with `prefix`.

@@ -17,7 +17,7 @@ use std::time::Duration;
 
 use crate::{
     ConnectError, FieldValue, Instance, ReplyMessage, RequestError, RequestMessage, TransportError, WireLayout,
-    runtime_folder,
+    runtime_folder, shared_memory,
 };
 
 /// Name of the socket in the instance's folder.
@@ -121,6 +121,8 @@ impl UrgentClient {
             ErrorKind::NotFound | ErrorKind::ConnectionRefused => instance.no_controller(),
             _ => instance.memory_error("send an urgent request to", cause),
         };
+        // The controller may wait for a client that was killed. This one must not wait.
+        shared_memory::remove_half_made(&instance.prefix(), Duration::ZERO);
         let folder = runtime_folder::open_own(instance.folder()).map_err(failed)?;
         let socket = own_socket().map_err(|cause| instance.memory_error("send an urgent request to", cause))?;
         // From now on only the controller's messages arrive.

@@ -4,7 +4,10 @@
 
 mod common;
 
+use std::fs::{DirBuilder, OpenOptions};
 use std::io::{BufRead, BufReader};
+use std::os::unix::fs::{DirBuilderExt, OpenOptionsExt};
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
 use common::{
@@ -123,4 +126,23 @@ fn operators_and_observers_notice_a_killed_controller_and_find_the_next() {
     assert_eq!(message.turn, 0.2);
     assert_eq!(controller.reports.publish(&report(3)), Ok(1));
     assert_eq!(eventually("a report", || observer.reports.next_report().unwrap()), report(3));
+}
+
+/// Files that a process was making when it was killed: iceoryx2 waits for them without end.
+#[test]
+fn half_made_files_of_killed_processes_do_not_stop_the_next_start() {
+    let (instance, _leftovers) = own_instance();
+    let controller = ControllerPorts::connect(&instance, MECHANISM).unwrap();
+    let names: Vec<_> = files_of(&instance).into_iter().filter(|name| name.starts_with("halfstep.")).collect();
+    drop(controller);
+    instance.remove_leftovers().unwrap();
+    for name in names {
+        DirBuilder::new().mode(0o700).recursive(true).create(instance.folder()).unwrap();
+        let half_made = Path::new("/dev/shm").join(&name);
+        OpenOptions::new().write(true).create_new(true).mode(0o200).open(half_made).unwrap();
+        let controller = ControllerPorts::connect(&instance, MECHANISM);
+        assert!(controller.is_ok(), "{name}: {controller:?}");
+        drop(controller);
+        instance.remove_leftovers().unwrap();
+    }
 }

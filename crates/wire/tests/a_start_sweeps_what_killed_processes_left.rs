@@ -2,7 +2,8 @@
 
 mod common;
 
-use std::fs;
+use std::fs::{self, DirBuilder};
+use std::os::unix::fs::DirBuilderExt;
 use std::path::PathBuf;
 
 use common::{MECHANISM, files_of, own_instance, runtime_folder};
@@ -20,13 +21,18 @@ fn leave_in_memory(instance: &Instance) -> PathBuf {
     file
 }
 
+/// The folder of an instance, as its first process makes it.
+fn create_folder(instance: &Instance) {
+    DirBuilder::new().mode(0o700).recursive(true).create(instance.folder()).unwrap();
+}
+
 #[test]
 fn the_next_start_sweeps_all_instances_without_a_process() {
     let (instance, _leftovers) = own_instance();
     let (dead, bare, alive) = (beside(&instance, "dead"), beside(&instance, "bare"), beside(&instance, "alive"));
     let _living = PlantPorts::connect(&alive, MECHANISM).unwrap();
     let of_the_living = files_of(&alive);
-    fs::create_dir_all(dead.folder()).unwrap();
+    create_folder(&dead);
     fs::write(dead.folder().join("anything"), "").unwrap();
     leave_in_memory(&dead);
     // Somebody has removed the folder only.
@@ -45,7 +51,7 @@ fn the_next_start_sweeps_all_instances_without_a_process() {
 fn an_instance_in_the_making_is_not_swept() {
     let (instance, _leftovers) = own_instance();
     let making = beside(&instance, "making");
-    fs::create_dir_all(making.folder()).unwrap();
+    create_folder(&making);
     let lock = fs::File::create(making.folder().join("turn")).unwrap();
     lock.lock().unwrap();
     let file = leave_in_memory(&making);

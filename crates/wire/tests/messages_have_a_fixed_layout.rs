@@ -49,11 +49,11 @@ fn request_message_has_a_fixed_layout() {
 
 #[test]
 fn reply_message_has_a_fixed_layout() {
-    assert_layout!(ReplyMessage, 112, {
+    assert_layout!(ReplyMessage, 120, {
         id @ 0 + 8, verdict @ 8 + 4, reason @ 12 + 4, effect_half_step @ 16 + 8, turn @ 24 + 8, speed @ 32 + 8,
         extension @ 40 + 8, intent @ 48 + 4, known @ 52 + 4, joint @ 56 + 4, source @ 60 + 4, value @ 64 + 8,
         limit @ 72 + 8, remaining @ 80 + 8, predicted_margin @ 88 + 8, mode @ 96 + 4, fault @ 100 + 4,
-        fault_time @ 104 + 8,
+        fault_time @ 104 + 8, cause @ 112 + 4, sensor @ 116 + 4,
     });
 }
 

@@ -75,6 +75,7 @@ impl ControllerArgs {
             self.child.announced(),
         )?;
 
+        self.child.bind_run()?;
         // Last: the other threads must not be pinned to the loop's core.
         let _granted = realtime::enter(&realtime.controller, clock, "controller", &self.config.realtime_file());
         if self.child.announced() == Announced::All {

@@ -12,7 +12,7 @@ use runtime::Rate;
 use wire::{Instance, InstanceName};
 
 use crate::error::CliError;
-use crate::process::end_with_parent;
+use crate::process::{end_cleanly_with_parent, end_with_parent};
 
 /// Which robot to talk to.
 #[derive(Clone, Debug, Args)]
@@ -88,8 +88,14 @@ impl ChildOptions {
         if self.parent.is_some() { Announced::Faults } else { Announced::All }
     }
 
+    /// Ends this process with its parent, if it has one to end with.
     pub(super) fn bind(&self) -> Result<(), CliError> {
         self.parent.map_or(Ok(()), end_with_parent)
+    }
+
+    /// The same, in a clean way: the run begins.
+    pub(super) fn bind_run(&self) -> Result<(), CliError> {
+        self.parent.map_or(Ok(()), |_| end_cleanly_with_parent())
     }
 }
 

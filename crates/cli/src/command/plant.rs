@@ -86,6 +86,7 @@ impl PlantArgs {
         let ticks = self.runs.ticks(realtime.rate);
         let mut cycles = Cycles::new(realtime.timing(clock), setpoints, "controller", ticks, interrupt).following();
 
+        self.child.bind_run()?;
         // Last: other threads must not be pinned to the loop's core. With an external engine the loop is not pinned, so
         // that the engine need not wait for a core that the loop never leaves.
         let file = self.config.realtime_file();

@@ -62,7 +62,7 @@ pub(super) struct WalkArgs {
 /// The commands if no file is given.
 const DEMO: &str = include_str!("../../../../config/commands_demo.jsonl");
 const POLL_INTERVAL: Duration = Duration::from_millis(10);
-/// Polls until a controller that is leaving must have left.
+/// Polls until processes that are leaving must have left.
 const LEAVING_POLLS: u32 = 200;
 /// Polls until the controller must have started.
 const STARTUP_POLLS: u32 = 1000;
@@ -235,7 +235,7 @@ impl WalkArgs {
             )),
         }
         let log = RunLog::read(folder)?;
-        log.notes.iter().for_each(|note| tell(note));
+        log.notes.iter().for_each(tell);
         let duration_s = rate.time(plant.ticks);
         let mut summary = WalkSummary {
             measures: log.measures(&robot.mechanism),
@@ -265,10 +265,11 @@ impl WalkArgs {
     }
 }
 
-/// Whether an instance has a controller that does not leave within two seconds, as one does whose walk was killed.
+/// Whether an instance has a controller or plant that does not leave within two seconds, as one does whose walk was
+/// killed.
 fn stays_taken(instance: &Instance) -> bool {
     (0..LEAVING_POLLS).all(|_| {
-        let is_taken = OperatorPorts::connect(instance).is_ok();
+        let is_taken = instance.is_in_use();
         if is_taken {
             std::thread::sleep(POLL_INTERVAL);
         }

@@ -215,7 +215,7 @@ mod tests {
         assert_eq!(text(ReplyMessage { remaining: -1.0, ..full }), "reply: remaining is -1; it must be at least 0");
         assert!(text(ReplyMessage { predicted_margin: f64::INFINITY, ..full }).starts_with("reply: predicted_margin"));
         assert!(
-            text(ReplyMessage { known: 32, ..full }).starts_with("reply: known is 32; known are sums of 1 (bound)")
+            text(ReplyMessage { known: 64, ..full }).starts_with("reply: known is 64; known are sums of 1 (bound)")
         );
     }
 
@@ -240,6 +240,8 @@ mod tests {
             mode: 0,
             fault: 0,
             fault_time: 0.0,
+            cause: 0,
+            sensor: 0,
         };
         assert!(zero.checked().unwrap_err().to_string().starts_with("reply: verdict is 0; known are 1 (accepted)"));
     }

@@ -45,8 +45,8 @@ impl RequestMessage {
     pub const EXTENSION: u32 = 4;
     /// In `present`: `intent` is asked for.
     pub const INTENT: u32 = 8;
-    /// In `present`: another request of the same script follows, which takes effect no earlier. A controller in lockstep
-    /// waits for it, so that the walk does not depend on when it is sent.
+    /// In `present`: another request of the same script follows, which takes effect no earlier. A controller in
+    /// lockstep waits for it, so that the walk does not depend on when it is sent.
     pub const MORE: u32 = 16;
 
     /// The request, if its codes are known, every number that is present is finite, and the age limit is not negative.
