@@ -1,6 +1,6 @@
 //! Goal: no number of any file is taken that makes no sense. Each number of the committed files is replaced by absurd
-//! ones: it is refused, or what is loaded walks on finite numbers. A new key cannot be forgotten: the files are searched
-//! for numbers, not for keys.
+//! ones: it is refused, or what is loaded walks on finite numbers. A new key cannot be forgotten: the files are
+//! searched for numbers, not for keys.
 
 use std::ops::Range;
 use std::sync::Arc;

@@ -18,7 +18,7 @@ fn run(mut python: Command, example: &str, command_line: &CommandLine) -> Output
 /// A Python program with the package, run to its end.
 fn output(python: &mut Command, command_line: &CommandLine) -> Output {
     python.env("PYTHONPATH", repository().join("tools/python")).env("XDG_RUNTIME_DIR", command_line.runtime_folder());
-    python.output().expect("Python")
+    python.current_dir(command_line.folder()).output().expect("Python")
 }
 
 fn text(bytes: &[u8]) -> String {

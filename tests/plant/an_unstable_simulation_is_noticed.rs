@@ -1,5 +1,5 @@
-//! Goal: a simulated robot that has left physics is noticed before its numbers mean nothing, and the settings that did it
-//! are named. What files may hold keeps the integration stable, so the settings are made here.
+//! Goal: a simulated robot that has left physics is noticed before its numbers mean nothing, and the settings that did
+//! it are named. What files may hold keeps the integration stable, so the settings are made here.
 
 use halfstep_tests::walking::{Walking, controller_parameters, plant_parameters};
 use plant::Unevenness;

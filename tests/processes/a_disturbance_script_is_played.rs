@@ -49,7 +49,11 @@ fn a_good_disturbance_script_is_read() {
 fn each_mistake_of_a_disturbance_script_is_named() {
     for (good, bad, expected) in [
         ("at_s = 1", "at_s = -1", "script.toml:2:8: push[0].at_s = -1: must lie between 0 and 1000000"),
-        ("lasts_s = 0.1", "lasts_s = 0", "script.toml:3:11: push[0].lasts_s = 0: must be greater than 0"),
+        (
+            "lasts_s = 0.1",
+            "lasts_s = 0",
+            "script.toml:3:11: push[0].lasts_s = 0: must lie between 0.000001 and 1000000",
+        ),
         ("lasts_s = 0.1", "lasts_ms = 100", "push[0].lasts_ms = 100: unknown key; write `lasts_s`"),
         ("[0, 4, 0]", "[0, 4]", "push[0].impulse_n_s = [0, 4]: must be an array of 3 finite numbers"),
         ("[0, 4, 0]", "[0, 4e9, 0]", "push[0].impulse_n_s = [0, 4e9, 0]: each must lie between -10000 and 10000"),
@@ -64,7 +68,11 @@ fn each_mistake_of_a_disturbance_script_is_named() {
         ),
         ("\"left_knee\"", "\"knee\"", "sensor_fault[0].joint = \"knee\": must be one of \"foot_roll\""),
         ("size_deg = 90", "size_n = 90", "sensor_fault[0].size_n = 90: unknown key; write `size_deg`"),
-        ("values = \"angles\"\njoint = \"left_knee\"", "", "a spike is in: \"all\" have no unit in common"),
+        (
+            "values = \"angles\"\njoint = \"left_knee\"",
+            "",
+            "sensor_fault[0].values: must say which values have the size: \"all\" have no unit in common",
+        ),
         ("delay_periods = 3", "delay_periods = 99", "must be a whole number between 1 and 31"),
         ("delay_periods = 3", "", "sensor_fault[1].delay_periods: is missing"),
         ("\"delay\"", "\"drop_out\"", "sensor_fault[1].delay_periods = 3: unknown key"),

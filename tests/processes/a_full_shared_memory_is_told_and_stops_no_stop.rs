@@ -54,7 +54,10 @@ fn a_stop_gets_through_when_another_program_fills_shared_memory() {
     let script = "
         $H controller --instance full --for 4s >controller.txt 2>&1 & C=$!
         $H plant --instance full --for 4s >plant.txt 2>&1 & P=$!
-        n=0; until $H send --instance full speed 1.0 >/dev/null 2>&1; do n=$((n+1)); [ $n -gt 200 ] && exit 1; sleep 0.05; done
+        n=0
+        until $H send --instance full speed 1.0 >/dev/null 2>&1; do
+            n=$((n+1)); [ $n -gt 200 ] && exit 1; sleep 0.05
+        done
         dd if=/dev/zero of=/dev/shm/other bs=4k 2>/dev/null
         $H send --instance full turn 3 2>turn.txt; echo turn $?
         $H send --instance full stop; echo stop $?

@@ -1,5 +1,5 @@
-//! Another unprivileged user can neither steer, stop, watch nor lock out a robot, and root does not break a user's robot
-//! by using the same name.
+//! Another unprivileged user can neither steer, stop, watch nor lock out a robot, and root does not break a user's
+//! robot by using the same name.
 //!
 //! Needs root, which can become another user; says so when it did not run.
 

@@ -46,8 +46,7 @@ fn no_command_panics_when_its_output_cannot_be_written() {
     fs::write(command_line.folder().join("limited.jsonl"), limited).unwrap();
     for (number, words) in COMMANDS.iter().enumerate() {
         let code = command_line.run(&words.replace("OUT", &format!("run-{number}"))).code;
-        let outputs: [(&str, fn() -> Stdio); 2] = [("full", full), ("closed", closed)];
-        for (name, output) in outputs {
+        for (name, output) in [("full", full as fn() -> Stdio), ("closed", closed)] {
             let words = words.replace("OUT", &format!("{name}-{number}"));
             let log = File::create(command_line.folder().join("log")).unwrap();
             let mut child = command_line.spawn(&words, log.into(), output());

@@ -125,8 +125,8 @@ fn compressed_recordings_are_read_and_unknown_compressions_refused_with_the_reme
         let replayed = command_line.run("replay packed.mcap");
         let drawn = command_line.run("plot packed.mcap --out packed");
         if compression == "br" {
-            let says = "packed.mcap: is compressed with `br`; lz4 and zstd can be read, for others unpack it first with \
-                        `mcap decompress`\n";
+            let says = "packed.mcap: is compressed with `br`; lz4 and zstd can be read, for others unpack it first \
+                        with `mcap decompress`\n";
             assert_eq!((replayed.code, replayed.stderr.as_str()), (Some(2), says));
             assert_eq!((drawn.code, drawn.stderr.as_str()), (Some(2), says));
         } else {
@@ -198,7 +198,7 @@ fn what_a_recording_lacks_is_said_and_no_empty_picture_is_drawn() {
     let whole = fs::read(command_line.folder().join("c/controller.mcap")).unwrap();
     // Schemas are in the first chunk, before the attachments.
     let begun = records(&whole[8..whole.len() - 8]);
-    let events = 1 + begun.iter().skip(2).position(|(kind, _)| *kind == CHUNK).expect("a chunk of events");
+    let events = 2 + begun.iter().skip(2).position(|(kind, _)| *kind == CHUNK).expect("a chunk of events");
     let until_events = 8 + bytes_of(&begun[..events]).len();
     for (name, length, code, says) in [
         ("empty.mcap", 0, 2, "empty.mcap: holds nothing of a run: it is empty\n"),

@@ -6,7 +6,7 @@ use std::time::Duration;
 use halfstep_tests::command_line::CommandLine;
 use interface::{GaitChange, Intent, Mode, Reason, Reply, Request, Source, Verdict};
 use record::{Recording, RunEvent};
-use wire::{Instance, OperatorPorts, PendingReply};
+use wire::{OperatorPorts, PendingReply};
 
 const SAFETY: Duration = Duration::from_secs(20);
 
@@ -23,7 +23,7 @@ fn every_reply_carries_the_id_of_its_request() {
     let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
     let controller = command_line.start_here("controller --lockstep --from-stand --out log");
     command_line.wait_for_controller();
-    let operator = OperatorPorts::connect(&Instance::new(command_line.instance()).unwrap()).unwrap();
+    let operator = OperatorPorts::connect(command_line.wire_instance()).unwrap();
     let turn = |turn| GaitChange { turn: Some(turn), ..GaitChange::NONE };
     let requests = [
         (Request { id: 11, expires_ns: Some(1), ..walk() }, Verdict::Refused, Reason::Expired),
@@ -76,7 +76,7 @@ fn a_request_that_was_told_to_have_failed_is_not_carried_out_later() {
     let killed = command_line.start_here("send walk");
     std::thread::sleep(Duration::from_millis(500));
     killed.kill();
-    let operator = OperatorPorts::connect(&Instance::new(command_line.instance()).unwrap()).unwrap();
+    let operator = OperatorPorts::connect(command_line.wire_instance()).unwrap();
     let cancelled = operator.requests.send(&(&walk()).into()).unwrap();
     drop(cancelled);
     // What the killed one sent expires.

@@ -11,7 +11,8 @@ fn walk(command_line: &CommandLine, folder: &str, seed: u64) -> Value {
     let ended = command_line.run(&format!("walk --lockstep --for 6s --seed {seed} --out {folder} --json"));
     assert_eq!(ended.code, Some(0), "{}", ended.stderr);
     let mut summary: Value = serde_json::from_str(&command_line.read(&format!("{folder}/summary.json"))).unwrap();
-    let printed: Value = serde_json::from_str(&ended.stdout).unwrap();
+    let mut printed: Value = serde_json::from_str(&ended.stdout).unwrap();
+    assert_eq!(printed.as_object_mut().unwrap().remove("folder"), Some(folder.into()));
     assert_eq!(summary, printed, "stdout and summary.json say the same");
     for of_the_wall in ["real_time_factor", "instance"] {
         assert!(summary.as_object_mut().unwrap().remove(of_the_wall).is_some());

@@ -230,14 +230,15 @@ fn text(outcomes: &[Outcome]) -> String {
 
 /// Walks that nothing is wrong with: random streams, with pushes, on tiles, on slopes. Whether no alarm was raised.
 fn clean(options: &Options) -> bool {
-    let floors: [(&str, &(dyn Fn(&mut PlantParameters) + Sync)); 7] = [
-        ("streams", &|_| {}),
-        ("streams and pushes", &|_| {}),
-        ("tiles 2 mm", &|plant| plant.unevenness.height = 0.002),
-        ("slope 2° up ahead", &|plant| plant.slope.ahead = 2_f64.to_radians()),
-        ("slope 2° down ahead", &|plant| plant.slope.ahead = -2_f64.to_radians()),
-        ("slope 2° to the left", &|plant| plant.slope.left = 2_f64.to_radians()),
-        ("sensor delay 3 ms", &|plant| plant.sensors.delay_periods = 3),
+    type Floor = (&'static str, fn(&mut PlantParameters));
+    let floors: [Floor; 7] = [
+        ("streams", |_| {}),
+        ("streams and pushes", |_| {}),
+        ("tiles 2 mm", |plant| plant.unevenness.height = 0.002),
+        ("slope 2° up ahead", |plant| plant.slope.ahead = 2_f64.to_radians()),
+        ("slope 2° down ahead", |plant| plant.slope.ahead = -2_f64.to_radians()),
+        ("slope 2° to the left", |plant| plant.slope.left = 2_f64.to_radians()),
+        ("sensor delay 3 ms", |plant| plant.sensors.delay_periods = 3),
     ];
     let count = floors.len() * options.clean as usize;
     let walks = on_all_cores(count, |index| {

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use dynamics::{GroundContact, Kinematics, ReferenceDynamics, Tree};
+use dynamics::{Kinematics, PlannedContact, ReferenceDynamics, Tree};
 use gait::{GaitParameters, NominalTable, Start, Walk, interpolate};
 use interface::{Command, Measurement, Setpoint};
 use model::{ComState, Mechanism, Mirrored, Motion};
@@ -53,7 +53,7 @@ impl Playback {
         let mut plant = Plant::new(mechanism, plant, &start, PERIOD, 0);
         let measured = plant.measure();
         let mut plan = ReferenceDynamics::new(mechanism, &tree, walk.mirror());
-        plan.update(&tree, walk.mirror(), &lean.lean(&walk.motion()), GroundContact::SupportFoot);
+        plan.update(&tree, walk.mirror(), &lean.lean(&walk.motion()), PlannedContact::SupportFoot);
         Self {
             start,
             feedback: DcmFeedback::new(mechanism, feedback),
@@ -100,7 +100,7 @@ impl Playback {
         }
 
         let leaning = self.walk.motion() + self.flipped();
-        self.plan.update(&self.tree, self.walk.mirror(), &leaning, GroundContact::SupportFoot);
+        self.plan.update(&self.tree, self.walk.mirror(), &leaning, PlannedContact::SupportFoot);
         let asked = leaning + *self.feedback.offsets();
         let mirror = self.walk.mirror();
         let support = self.walk.half_step().support;

@@ -8,7 +8,7 @@ use config::Config;
 use halfstep_tests::pushing::{Direction, PUSH_DURATION};
 use halfstep_tests::random;
 use halfstep_tests::walking::{Walking, controller_parameters, plant_parameters};
-use interface::{Fault, Faults, GaitChange, Mode, Sensor};
+use interface::{Fault, Faults, GaitChange, Intent, Mode, Reason, Sensor};
 use model::{Joint, Side};
 use plant::Disturbances;
 use rand::Rng;
@@ -76,6 +76,21 @@ fn every_lasting_sensor_fault_is_named_and_ends_the_walk() {
             assert!(matches!(mode, Mode::Faulted | Mode::Fallen), "`{fault}` from {start} s: {mode:?}");
         }
     }
+}
+
+/// An orientation that is off for good cannot be told from a repaired one: the operator decides, by a second reset.
+#[test]
+fn a_second_reset_takes_sensors_as_they_are() {
+    let mut walking = Walking::begin(1);
+    let script = "[[sensor_fault]]\nat_s = 2\nlasts_s = 60\nkind = \"spike\"\nvalues = \"orientation\"\nsize_deg = 1";
+    walking.plant.disturbances = Disturbances::from_toml(script, "script").unwrap();
+    walking.walk(6.0);
+    assert_eq!(walking.tick(None).report.mode, Mode::Faulted);
+    let mut reset = || walking.ask(GaitChange::NONE, Some(Intent::Reset)).reply.map(|reply| reply.reason);
+    assert_eq!(reset(), Some(Reason::FaultPersists));
+    assert_eq!(reset(), Some(Reason::None));
+    walking.walk(8.0);
+    assert!(!walking.plant.truth().has_fallen());
 }
 
 /// Frozen forces do most harm around a support change: they are tried every 20 ms of a half-step.

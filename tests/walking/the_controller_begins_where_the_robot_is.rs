@@ -1,5 +1,5 @@
-//! The controller begins where the robot is: a restart beside a standing robot stands, a robot in another posture is held
-//! in it, and one that comes back is brought to a stand after a reset.
+//! The controller begins where the robot is: a restart beside a standing robot stands, a robot in another posture is
+//! held in it, and one that comes back is brought to a stand after a reset.
 
 use std::sync::Arc;
 

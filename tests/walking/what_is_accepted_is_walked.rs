@@ -1,6 +1,8 @@
 //! What a reply accepts is what the robot does. What it does not, or not yet, is told: in place, after a fault, with
 //! nothing to reset.
 
+use std::f64::consts::FRAC_PI_6;
+
 use halfstep_tests::walking::Walking;
 use interface::{GaitChange, Intent, Mode, Reason, Reply, Verdict};
 use plant::{SensorFault, SensorFaultKind};
@@ -39,7 +41,7 @@ fn in_place_a_high_speed_and_an_extension_wait_for_the_walk_and_the_reply_tells(
 /// What is stored in place is checked as the walk that it is for.
 #[test]
 fn gait_parameters_are_limited_in_place_as_they_are_walked() {
-    let extreme = GaitChange { turn: Some(0.5235), speed: Some(1.5), extension: Some(0.2094) };
+    let extreme = GaitChange { turn: Some(FRAC_PI_6), speed: Some(1.5), extension: Some(0.2094) };
     let mut walking = Walking::begin(12);
     walking.walk(1.0);
     reply(&mut walking, GaitChange::NONE, Some(Intent::InPlace));

@@ -5,7 +5,7 @@ mod robot_posture;
 
 use std::sync::Arc;
 
-use dynamics::{GroundContact, Kinematics, ReferenceDynamics, Tree};
+use dynamics::{Kinematics, PlannedContact, ReferenceDynamics, Tree};
 use gait::{NominalTable, Start, Walk, WalkError};
 use interface::{
     AddedAngles, Fault, Faults, Intent, LatchedFault, Measurement, Mode, Reason, Rejection, Reply, Report, Setpoint,
@@ -345,7 +345,7 @@ impl Controller {
             let gait = self.pattern.gait();
             let mirror = gait.walk().mirror();
             let motion = mirror.to_support(gait.half_step().support, &recovery);
-            self.reference.update(&self.tree, mirror, &motion, GroundContact::BothFeet);
+            self.reference.update(&self.tree, mirror, &motion, PlannedContact::BothFeet);
             return motion;
         }
         let gait = self.pattern.gait_mut();

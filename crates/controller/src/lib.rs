@@ -28,3 +28,4 @@ pub use measurement_validator::{MeasurementValidator, ValidatorParameters};
 pub use parameters::Parameters;
 pub use pattern::Compensation;
 pub use report::Tick;
+pub use sensor_consistency::ConsistencyParameters;

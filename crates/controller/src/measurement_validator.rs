@@ -145,8 +145,8 @@ impl MeasurementValidator {
         valid
     }
 
-    /// Whether the newest sample is the first one of a robot: the first ever, or the first after the timeout of one that
-    /// counts from the start again.
+    /// Whether the newest sample is the first one of a robot: the first ever, or the first after the timeout of one
+    /// that counts from the start again.
     pub fn has_found_robot(&self) -> bool {
         self.has_found_robot
     }
@@ -154,6 +154,11 @@ impl MeasurementValidator {
     /// Why the newest sample was rejected, if it was.
     pub fn rejection(&self) -> Option<Rejection> {
         self.rejection
+    }
+
+    /// Forgets what former samples say about present ones, as if a sensor had been repaired.
+    pub(crate) fn begin_anew(&mut self) {
+        self.consistency.reset();
     }
 
     /// Checks a new sample, and returns the vertical in its trunk's axes.

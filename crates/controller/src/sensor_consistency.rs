@@ -9,52 +9,23 @@
 //! A sample that contradicts is rejected at once: for a while the plan goes on without it, which costs less than
 //! feedback of a wrong value. Only if that lasts does the robot stop.
 
+mod expectation;
 mod frozen_values;
 mod joint_consistency;
 mod load_consistency;
+mod parameters;
 mod trunk_consistency;
 
-use interface::{Measurement, Rejection, Setpoint};
-use model::Side;
+use interface::{Measurement, Rejection};
 use nalgebra::Vector3;
+
+pub(crate) use expectation::{Expectation, ExpectedSupport};
+pub use parameters::ConsistencyParameters;
 
 use frozen_values::FrozenValues;
 use joint_consistency::JointConsistency;
 use load_consistency::LoadConsistency;
 use trunk_consistency::TrunkConsistency;
-
-/// Bounds of the consistency check.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ConsistencyParameters {
-    /// Largest angle between the measured vertical and the one predicted by the gyro (rad).
-    pub orientation_error_max: f64,
-    /// Largest difference of a measured joint angle from its setpoint (rad).
-    pub tracking_error_max: f64,
-    /// Largest mean of this difference over 0.3 s (rad).
-    pub tracking_bias_max: f64,
-    /// Largest difference of a measured joint angle from the integral of its measured rate (rad).
-    pub rate_error_max: f64,
-    /// Least and largest mean of the force on both feet over 0.1 s of a walk, as shares of the weight (-).
-    pub load_share: [f64; 2],
-}
-
-/// What is commanded, and so expected of a measurement.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Expectation<'a> {
-    /// The last setpoint.
-    pub setpoint: &'a Setpoint,
-    /// What carries the robot; `None` where anything may, as in a stand.
-    pub support: Option<ExpectedSupport>,
-}
-
-/// What carries a robot that walks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ExpectedSupport {
-    /// Either foot, or both: a support change.
-    AnyFoot,
-    /// This foot alone.
-    OneFoot(Side),
-}
 
 /// Checks measurements against each other and against setpoints.
 #[derive(Clone, Debug)]

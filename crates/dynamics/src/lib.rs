@@ -38,7 +38,7 @@ pub use lanes::LANES;
 pub use leg_solver::LegSolver;
 pub use mass_matrix::{MassMatrix, mass_matrix};
 pub use newton_euler::{BaseMotion, NewtonEuler};
-pub use reference_dynamics::{GroundContact, ReferenceDynamics};
+pub use reference_dynamics::{PlannedContact, ReferenceDynamics};
 pub use sin_cos::sin_cos;
 pub use support_polygon::SupportPolygon;
 pub use time_scaling::{wrench_at_speed, zmp_at_speed};

@@ -7,7 +7,7 @@ use crate::{Kinematics, NewtonEuler, SupportPolygon, Tree, zmp};
 
 /// Which feet are on the ground as planned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum GroundContact {
+pub enum PlannedContact {
     /// The support foot alone.
     SupportFoot,
     /// Both, around a support change: the weight moves from foot to foot within a few hundredths of a second.
@@ -58,7 +58,7 @@ impl ReferenceDynamics {
             margin: 0.0,
             com: kinematics.com_state(tree, &JointVector::ZERO),
         };
-        dynamics.update(tree, mirror, &Motion::default(), GroundContact::SupportFoot);
+        dynamics.update(tree, mirror, &Motion::default(), PlannedContact::SupportFoot);
         dynamics
     }
 
@@ -93,7 +93,7 @@ impl ReferenceDynamics {
     ///
     /// * `motion` – in support coordinates; on a slope `FootRoll` and `FootPitch` are the pose of the sole in level
     ///   axes
-    pub fn update(&mut self, tree: &Tree, mirror: &Mirror, motion: &Motion, contact: GroundContact) {
+    pub fn update(&mut self, tree: &Tree, mirror: &Mirror, motion: &Motion, contact: PlannedContact) {
         self.vertical = Vector2::new(-motion.angles[Joint::FootPitch], motion.angles[Joint::FootRoll]);
         self.inverse.compute_fixed_base(tree, motion);
         // A motion that needs no ground has its ZMP infinitely far away; the last one stands for it.
@@ -121,13 +121,13 @@ impl ReferenceDynamics {
     }
 
     /// The swing foot's share of the ground reaction.
-    fn share_of_swing_foot(&self, contact: GroundContact) -> f64 {
+    fn share_of_swing_foot(&self, contact: PlannedContact) -> f64 {
         let to_swing = self.inverse.kinematics.origin[Mechanism::foot(Side::Left)].xy();
         let along = self.zmp.dot(&to_swing) / to_swing.norm_squared();
         let (leaves, enters) = match contact {
-            GroundContact::SupportFoot => return 0.0,
-            GroundContact::SupportChange => self.gap(to_swing),
-            GroundContact::BothFeet => (0.0, 1.0),
+            PlannedContact::SupportFoot => return 0.0,
+            PlannedContact::SupportChange => self.gap(to_swing),
+            PlannedContact::BothFeet => (0.0, 1.0),
         };
         if enters > leaves { ((along - leaves) / (enters - leaves)).clamp(0.0, 1.0) } else { 0.0 }
     }

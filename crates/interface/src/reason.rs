@@ -48,7 +48,7 @@ codes! {
         /// A fault is latched.
         Faulted = 20 "a fault is latched: send reset",
         /// The cause of the latched fault is still present.
-        FaultPersists = 21 "the fault persists: the robot must be upright and sending measurements",
+        FaultPersists = 21 "the fault persists: the robot must be upright and its sensors agree; then reset again",
         /// The sole would slip: horizontal per vertical force of the ground.
         Friction = 22 "the support sole would slip",
         /// The sole would spin (N·m).

@@ -35,15 +35,14 @@ pub struct Rejection {
 }
 
 impl Sensor {
-    /// Its number in messages: the kind of sensor times 256, plus the joint's number (1 to 20) or the foot's (0 right, 1
-    /// left, 255 both).
+    /// Its number in messages: the kind of sensor times 256, plus the number of the joint (1 to 20) or of the foot (0
+    /// right, 1 left, 255 both).
     pub const fn code(self) -> u32 {
         match self {
             Self::All => 0,
             Self::JointAngle(joint) => 0x100 | joint.number() as u32,
             Self::JointRate(joint) => 0x200 | joint.number() as u32,
-            Self::Foot(Side::Right) => 0x300,
-            Self::Foot(Side::Left) => 0x301,
+            Self::Foot(side) => 0x300 | side.index() as u32,
             Self::Feet => 0x3ff,
             Self::Orientation => 0x400,
             Self::AngularRate => 0x500,
@@ -57,8 +56,7 @@ impl Sensor {
             0 => Self::All,
             0x100..0x200 => Self::JointAngle(joint()?),
             0x200..0x300 => Self::JointRate(joint()?),
-            0x300 => Self::Foot(Side::Right),
-            0x301 => Self::Foot(Side::Left),
+            0x300 | 0x301 => Self::Foot(Side::BOTH[(code & 1) as usize]),
             0x3ff => Self::Feet,
             0x400 => Self::Orientation,
             0x500 => Self::AngularRate,
@@ -74,8 +72,7 @@ impl fmt::Display for Sensor {
             Self::All => formatter.write_str("all sensors"),
             Self::JointAngle(joint) => write!(formatter, "angle of the {}", words(*joint)),
             Self::JointRate(joint) => write!(formatter, "rate of the {}", words(*joint)),
-            Self::Foot(Side::Right) => formatter.write_str("force sensor of the right foot"),
-            Self::Foot(Side::Left) => formatter.write_str("force sensor of the left foot"),
+            Self::Foot(side) => write!(formatter, "force sensor of the {} foot", ["right", "left"][side.index()]),
             Self::Feet => formatter.write_str("force sensors of the feet"),
             Self::Orientation => formatter.write_str("orientation of the trunk"),
             Self::AngularRate => formatter.write_str("angular rate of the trunk"),

@@ -153,6 +153,12 @@ impl Joint {
         self as u8 >= Joint::FIRST_POWERED as u8
     }
 
+    /// Whether it moves a part of an arm.
+    pub const fn is_in_arm(self) -> bool {
+        use Joint::*;
+        matches!(self, RightShoulder | RightElbow | LeftShoulder | LeftElbow)
+    }
+
     /// Whether the joint belongs to the chain from one foot over the pelvis to the other, whose order the mirror
     /// reverses.
     pub const fn is_in_leg(self) -> bool {

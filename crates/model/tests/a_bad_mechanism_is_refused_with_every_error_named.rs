@@ -56,7 +56,7 @@ fn assert_refused(mistakes: &[Mistake]) {
 fn sixteen_mistakes_in_a_mechanism_file_are_reported_in_sixteen_lines() {
     assert_refused(&[
         mistake("sole", "width_m = 0.08", "width_mm = 80", "1: sole.width_mm = 80: unknown key; write `width_m`"),
-        mistake("motor.leg", "0.608", "0.0", "18: motor.leg.resistance_ohm = 0.0: must be greater than 0"),
+        mistake("motor.leg", "0.608", "0.0", "18: motor.leg.resistance_ohm = 0.0: must lie between 0.001 and 10000"),
         mistake(
             "motor.arm",
             "gear_ratio = 60\n",
@@ -67,7 +67,7 @@ fn sixteen_mistakes_in_a_mechanism_file_are_reported_in_sixteen_lines() {
             "joint.right_ankle_pitch",
             "3.16",
             "-3.16",
-            "11: joint.right_ankle_pitch.mass_kg = -3.16: must be greater than 0",
+            "11: joint.right_ankle_pitch.mass_kg = -3.16: must lie between 0.0001 and 1000",
         ),
         mistake(
             "joint.right_knee",
@@ -98,7 +98,7 @@ fn sixteen_mistakes_in_a_mechanism_file_are_reported_in_sixteen_lines() {
             "[0.0657, 0.0525, 0.0592]",
             "[0.0657, 0.0525, 0.1592]",
             "17: joint.right_hip_roll.inertia_kg_m2 = [0.0657, 0.0525, 0.1592]: must be three principal moments, each \
-             greater than 0 and at most the sum of the other two",
+             between 0.0000000001 and 1000 and at most the sum of the other two",
         ),
         mistake(
             "joint.left_hip_pitch",
@@ -117,7 +117,8 @@ fn sixteen_mistakes_in_a_mechanism_file_are_reported_in_sixteen_lines() {
             "joint.left_ankle_pitch",
             "[-50, 45]",
             "[45, -50]",
-            "13: joint.left_ankle_pitch.range_deg = [45, -50]: each must be greater than the one before",
+            "13: joint.left_ankle_pitch.range_deg = [45, -50]: each must lie between -720 and 720, and \
+             be greater than the one before",
         ),
         mistake(
             "joint.waist_pitch",

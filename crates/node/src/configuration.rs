@@ -133,7 +133,7 @@ impl ConfigFiles {
         let nominal = errors.note(self.load_nominal(&nominal_file));
         let (mechanism, nominal) = (mechanism?, nominal?);
         if nominal.mechanism == mechanism.fingerprint {
-            check_nominal(&mechanism, &nominal, &nominal_file, errors);
+            errors.0.extend(check_nominal(&mechanism, &nominal, &nominal_file));
         } else {
             errors.0.push(format!(
                 "{}: made for the mechanism {:#018x}, but {} is {:#018x}; make one for it with `{}`",

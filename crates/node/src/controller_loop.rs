@@ -34,8 +34,8 @@ pub struct ControllerRun {
 /// it ends no operator's stream.
 const HOLD: Request = Request { intent: Some(Intent::Hold), ..Request::new(Source::ControlLoop) };
 
-/// Runs until the cycles end. When `hold_after_misses` more deadlines were missed than kept, the robot stops in stride; 0
-/// is never.
+/// Runs until the cycles end. When `hold_after_misses` more deadlines were missed than kept, the robot stops in stride;
+/// 0 is never.
 ///
 /// # Errors
 /// In lockstep no measurement has arrived for too long.

@@ -23,8 +23,8 @@ const SILENCE_MAX: Duration = Duration::from_secs(30);
 const SPIN: Duration = Duration::from_micros(50);
 const YIELD: Duration = Duration::from_millis(2);
 const POLL_INTERVAL: Duration = Duration::from_micros(200);
-/// The most that one poll adds to the silence: a process that was away for longer had been halted, and perhaps the other
-/// one with it.
+/// The most that one poll adds to the silence: a process that was away for longer had been halted, and perhaps the
+/// other one with it.
 const POLL_MAX: Duration = Duration::from_millis(20);
 /// Most time that one cycle makes up for: a process that was away for longer had been halted.
 const CATCH_UP_MAX: Duration = Duration::from_millis(100);

@@ -25,8 +25,8 @@ impl Interrupt {
     /// The operating system refuses to deliver signals.
     pub fn listen() -> Result<Self, ListenError> {
         let interrupt = Self::default();
-        // In this order: the first Ctrl-C finds the flag lowered. Other signals do not count, since whoever started this
-        // process may send one beside the Ctrl-C of the terminal.
+        // In this order: the first Ctrl-C finds the flag lowered. Other signals do not count, since whoever started
+        // this process may send one beside the Ctrl-C of the terminal.
         let interrupted = Arc::new(AtomicBool::new(false));
         signal_hook::flag::register_conditional_shutdown(SIGINT, SECOND_INTERRUPT, Arc::clone(&interrupted))
             .map_err(ListenError)?;

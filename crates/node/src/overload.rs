@@ -1,7 +1,7 @@
 //! Whether a loop is overloaded, by the deadlines that it misses.
 
-/// Counts missed deadlines up and kept ones down, so that a loop that misses most of its deadlines is found at any rate,
-/// whether its work takes a little too long each time or it was halted once.
+/// Counts missed deadlines up and kept ones down, so that a loop that misses most of its deadlines is found at any
+/// rate, whether its work takes a little too long each time or it was halted once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Overload {
     limit: u64,

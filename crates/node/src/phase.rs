@@ -46,8 +46,8 @@ impl PhaseFollower {
     }
 }
 
-/// How much later the deadlines should be (ns), at most half a period either way, if the other loop's message is written
-/// half a period before them.
+/// How much later the deadlines should be (ns), at most half a period either way, if the other loop's message is
+/// written half a period before them.
 fn lag(written_ns: u64, deadline_ns: u64, length_ns: u64) -> i64 {
     let (length, half) = (length_ns as i64, length_ns as i64 / 2);
     (written_ns.wrapping_sub(deadline_ns) as i64).rem_euclid(length) - half + (length % 2)

@@ -138,8 +138,8 @@ fn capacity(rate: Rate) -> usize {
 }
 
 impl RecordWriter {
-    /// Writes events of the newest tick. The first failure is told at once, and after it nothing more is written, so that
-    /// there are no gaps.
+    /// Writes events of the newest tick. The first failure is told at once, and after it nothing more is written, so
+    /// that there are no gaps.
     fn write(&mut self, number: u32, events: &[RunEvent]) {
         let time_ns = (self.rate.time(self.tick) * 1e9).round() as u64;
         if let (Some(recording), Ok(())) = (&mut self.recording, &self.result) {
@@ -166,8 +166,8 @@ impl<E: Copy + Send + 'static> Recorder<E> {
 }
 
 impl RecorderThread {
-    /// Waits until everything is written, which needs the [`Recorder`] to be dropped. The number of lost entries is also
-    /// noted in the recording.
+    /// Waits until everything is written, which needs the [`Recorder`] to be dropped. The number of lost entries is
+    /// also noted in the recording.
     pub fn finish(self) -> Recorded {
         let Some(written) = self.thread.join() else {
             let error = NodeError::Thread(std::io::Error::other("the recorder's thread has ended early"));

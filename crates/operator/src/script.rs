@@ -176,7 +176,8 @@ mod tests {
                 "{", "}", "\"t\"", ":", ",", "\"turn_deg\"", "\"speed\"", "\"intent\"", "\"walk\"", "\"stop\"", "1.5",
                 "-1e999", "1e308", "null", "[", "]", "\"extension_deg\"", "nan", "\u{0}", "\n",
             ];
-            let text: String = parts.iter().map(|(piece, other)| *PIECES.get(*piece).unwrap_or(&other.as_str())).collect();
+            let text: String =
+                parts.iter().map(|(piece, other)| *PIECES.get(*piece).unwrap_or(&other.as_str())).collect();
             match Reader::read_all("fuzz", text.as_bytes()) {
                 Ok(steps) => assert!(steps.iter().all(|step| step.time.is_none_or(|t| t.as_secs_f64() <= TIME_MAX))),
                 Err(errors) => assert!(errors.iter().all(|error| error.to_string().starts_with("fuzz:"))),

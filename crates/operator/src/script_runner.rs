@@ -16,12 +16,13 @@ use crate::script::TimedRequest;
 pub struct ScriptRunner {
     operator: OperatorPorts,
     to_send: VecDeque<Request>,
-    /// Requests that were sent and not yet taken by [`next_reply`](Self::next_reply), in the order in which they are due.
-    sent: VecDeque<(Request, Answer)>,
+    /// Requests that were sent and not yet taken by [`next_reply`](Self::next_reply), in the order in which they are
+    /// due.
+    sent: VecDeque<(Request, ReplyState)>,
 }
 
 /// The reply to a request.
-enum Answer {
+enum ReplyState {
     Pending(PendingReply),
     Received(ReplyMessage),
     /// The controller has ended.
@@ -51,7 +52,7 @@ impl ScriptRunner {
                 message.present |= RequestMessage::MORE;
             }
             match self.operator.requests.send(&message) {
-                Ok(pending) => self.sent.push_back((*request, Answer::Pending(pending))),
+                Ok(pending) => self.sent.push_back((*request, ReplyState::Pending(pending))),
                 Err(RequestError::TooMany { .. }) => break,
                 Err(error) => return Err(error.into()),
             }
@@ -65,14 +66,14 @@ impl ScriptRunner {
         let (request, answer) = self.sent.front_mut()?;
         answer.update();
         match answer {
-            Answer::Pending(_) => None,
-            Answer::Received(reply) => {
+            ReplyState::Pending(_) => None,
+            ReplyState::Received(reply) => {
                 let answered = reply.checked().ok().map(|reply| (*request, reply));
                 self.sent.pop_front();
                 answered
             }
             // It will answer no request.
-            Answer::Lost => {
+            ReplyState::Lost => {
                 self.sent.clear();
                 self.to_send.clear();
                 None
@@ -81,14 +82,14 @@ impl ScriptRunner {
     }
 }
 
-impl Answer {
+impl ReplyState {
     /// Takes the reply if it has arrived, which makes room for another request.
     fn update(&mut self) {
-        let Answer::Pending(pending) = self else { return };
+        let ReplyState::Pending(pending) = self else { return };
         match pending.poll() {
             Ok(None) => {}
-            Ok(Some(reply)) => *self = Answer::Received(reply),
-            Err(_) => *self = Answer::Lost,
+            Ok(Some(reply)) => *self = ReplyState::Received(reply),
+            Err(_) => *self = ReplyState::Lost,
         }
     }
 }

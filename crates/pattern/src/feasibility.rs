@@ -34,7 +34,7 @@ pub struct FeasibilityParameters {
     pub margin_min: f64,
     /// Least distance of the soles to each other (m).
     pub clearance_min: f64,
-    /// Coefficient of friction of the ground that can be relied on.
+    /// Coefficient of friction of the ground that can be relied on (-).
     pub friction: f64,
 }
 

@@ -1,7 +1,7 @@
 //! The trait of gaits: what a controller plays, tick by tick.
 
 use ::gait::{RangeCheck, Walk};
-use dynamics::GroundContact;
+use dynamics::PlannedContact;
 use interface::{Command, GaitChange, HalfStep};
 use model::Motion;
 use nalgebra::Vector2;
@@ -63,13 +63,13 @@ pub trait Gait {
     }
 
     /// Which feet are on the ground as planned.
-    fn contact(&self) -> GroundContact {
+    fn contact(&self) -> PlannedContact {
         if self.in_double_support() {
-            GroundContact::BothFeet
+            PlannedContact::BothFeet
         } else if self.is_changing_support() {
-            GroundContact::SupportChange
+            PlannedContact::SupportChange
         } else {
-            GroundContact::SupportFoot
+            PlannedContact::SupportFoot
         }
     }
 

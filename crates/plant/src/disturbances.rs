@@ -10,7 +10,7 @@
 //! [[sensor_fault]]
 //! at_s = 5.0
 //! lasts_s = 0.02
-//! kind = "spike"          # or "freeze", "nan", "drift", "saturate", "reverse", "swap", "drop_out", "half_rate", "delay"
+//! kind = "spike"          # config/disturbances_demo.toml names the others
 //! values = "rates"
 //! joint = "left_knee"
 //! size_deg_per_s = 900

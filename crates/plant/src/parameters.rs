@@ -1,7 +1,7 @@
 //! The parameters of the simulated robot beyond its mechanism.
 
 use config::{Config, Table};
-use model::{Joint, PerJoint};
+use model::PerJoint;
 
 use crate::{ContactParameters, Payload, SensorParameters, ServoParameters, Slope, Unevenness};
 
@@ -38,7 +38,7 @@ impl Config for PlantParameters {
             unevenness: Unevenness::read(&root.table("unevenness")),
             payload: Payload::read(&root.table("payload")),
             contact: ContactParameters::read(&root.table("contact")),
-            servo: PerJoint::from_fn(|joint| if joint >= Joint::RightShoulder { arms } else { legs_and_waist }),
+            servo: PerJoint::from_fn(|joint| if joint.is_in_arm() { arms } else { legs_and_waist }),
             sensors: SensorParameters::read(&root.table("sensors")),
         }
     }

@@ -3,7 +3,6 @@
 //! What a file claims is never believed: a record is read as far as the file goes, and a chunk is unpacked as far as it
 //! says, but never beyond a bound. So memory is bounded by what the file holds.
 
-use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek};
 use std::path::{Path, PathBuf};
@@ -164,7 +163,7 @@ fn parsed(kind: u8, data: &[u8]) -> Result<Record<'_>, Stop> {
 }
 
 /// The records of a chunk. A damaged one yields nothing.
-fn unpacked(path: &Path, header: &ChunkHeader, packed: &Cow<'_, [u8]>) -> Result<Vec<u8>, Stop> {
+fn unpacked(path: &Path, header: &ChunkHeader, packed: &[u8]) -> Result<Vec<u8>, Stop> {
     let size = header.uncompressed_size;
     if size > CHUNK_MAX {
         return Err(Stop::Damage(format!("it has a chunk of {size} bytes; the longest have {CHUNK_MAX}")));
@@ -172,9 +171,9 @@ fn unpacked(path: &Path, header: &ChunkHeader, packed: &Cow<'_, [u8]>) -> Result
     let mut chunk = Vec::new();
     // One byte more than it should have shows that it has too many.
     let read = match header.compression.as_str() {
-        "" => packed.as_ref().take(size + 1).read_to_end(&mut chunk),
-        "lz4" => lz4_flex::frame::FrameDecoder::new(packed.as_ref()).take(size + 1).read_to_end(&mut chunk),
-        "zstd" => ruzstd::decoding::StreamingDecoder::new(packed.as_ref())
+        "" => packed.take(size + 1).read_to_end(&mut chunk),
+        "lz4" => lz4_flex::frame::FrameDecoder::new(packed).take(size + 1).read_to_end(&mut chunk),
+        "zstd" => ruzstd::decoding::StreamingDecoder::new(packed)
             .map_err(|error| Stop::Damage(format!("a chunk cannot be unpacked: {error}")))?
             .take(size + 1)
             .read_to_end(&mut chunk),

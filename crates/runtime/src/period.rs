@@ -45,8 +45,8 @@ impl Period {
         Self { length_ns, deadline_ns: now_ns().saturating_add(length_ns), spin_ns: 0 }
     }
 
-    /// Periods of `length` whose deadlines are a whole number of periods from `origin_ns` on `CLOCK_MONOTONIC`: the first
-    /// one at least `after` from now.
+    /// Periods of `length` whose deadlines are a whole number of periods from `origin_ns` on `CLOCK_MONOTONIC`: the
+    /// first one at least `after` from now.
     pub fn on_grid(length: Duration, origin_ns: u64, after: Duration) -> Self {
         let mut period = Self::starting_now(length);
         let earliest = now_ns().saturating_add(u64::try_from(after.as_nanos()).unwrap_or(u64::MAX / 2));

@@ -63,12 +63,13 @@ class Reason(IntEnum):
     SUPERSEDED = 18  # a stop or a newer request replaced it
     FALLEN = 19  # the robot has fallen: set it upright and send reset
     FAULTED = 20  # a fault is latched: send reset
-    FAULT_PERSISTS = 21  # the fault persists: the robot must be upright and sending measurements
-    EXPIRED = 22  # it expired before it could take effect
+    FAULT_PERSISTS = 21  # the fault persists: the robot must be upright and its sensors agree; then reset again
     FRICTION = 22  # the support sole would slip
     YAW_TORQUE = 23  # the support sole would turn on the ground
     NOTHING_TO_RESET = 24  # no fault is latched: there is nothing to reset
     IN_PLACE = 25  # in place the robot steps without extension and at most at speed 1: it takes effect once it walks
+    EXPIRED = 26  # it expired before it could take effect
+    NOT_IN_STAND = 27  # the robot is not in a stand: put its feet side by side first
 
 
 class Mode(IntEnum):
@@ -93,6 +94,10 @@ class Fault(IntFlag):
     IN_THE_AIR = 128  # the feet bear too little force for a zero-moment point
     FALLEN = 256  # the robot has fallen
     OUT_OF_REACH = 1024  # the plan needed a foot out of a leg's reach
+    MEASUREMENT_FROZEN = 2048  # a sensor's value has stopped changing
+    MEASUREMENT_INCONSISTENT = 4096  # sensors contradict each other
+    JOINT_OFF_SETPOINT = 8192  # a joint is not where it was commanded to be
+    UNEXPECTED_POSTURE = 16384  # the robot is not in the posture in which the controller begins
     NOT_RECORDED = 32768  # the run can no longer be recorded
     DEADLINE_MISSED = 512  # a deadline was missed
 
@@ -189,7 +194,7 @@ class Request(Message):
 
 
 class Reply(Message):
-    """`halfstep.Reply.v3`, 112 bytes."""
+    """`halfstep.Reply.v3`, 120 bytes."""
 
     id: int
     verdict: int
@@ -209,6 +214,8 @@ class Reply(Message):
     mode: int
     fault: int
     fault_time: float
+    cause: int
+    sensor: int
 
     _fields_ = [
         ("id", c_uint64),
@@ -229,6 +236,8 @@ class Reply(Message):
         ("mode", c_uint32),
         ("fault", c_uint32),
         ("fault_time", c_double),
+        ("cause", c_uint32),
+        ("sensor", c_uint32),
     ]
 
     @staticmethod

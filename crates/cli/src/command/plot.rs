@@ -48,7 +48,7 @@ impl PlotArgs {
             let notes = log.notes.join("; ");
             return Err(CliError::bad_input(format!("{run}: holds nothing to draw, no report and no state: {notes}")));
         }
-        log.notes.iter().for_each(|note| tell(note));
+        log.notes.iter().for_each(tell);
 
         let own = if self.run.is_dir() { Some(self.run.as_path()) } else { self.run.parent() };
         let folder = self.out.clone().or_else(|| own.map(Path::to_owned)).unwrap_or_default();

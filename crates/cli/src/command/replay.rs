@@ -10,8 +10,8 @@ use crate::status::Status;
 
 /// Re-run the controller on the recorded inputs, and report the first setpoint that differs in any bit
 ///
-/// Exit code 0: all recorded setpoints are the same; if the recording is truncated, it says up to when. Exit code 1: one
-/// differs, ticks or requests are missing in between, or no setpoint was recorded.
+/// Exit code 0: all recorded setpoints are the same; if the recording is truncated, it says up to when. Exit code 1:
+/// one differs, ticks or requests are missing in between, or no setpoint was recorded.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct ReplayArgs {
     /// A recording, or the folder of a run

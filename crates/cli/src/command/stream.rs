@@ -28,7 +28,7 @@ use crate::status::Status;
 \"extension_deg\":0,\"intent\":\"stop\"}. t is the controller's time since the stream began, in seconds; without t the \
 line is sent at once. All other keys are optional. A wrong line is reported with its number, and the stream \
 continues.\n\n\
-InputLines without t that arrive faster than they are answered are passed over for a newer one that sets the same keys: \
+Lines without t that arrive faster than they are answered are passed over for a newer one that sets the same keys: \
 the newest position of a stick counts. A stop overtakes everything, and takes the place of all lines before it that \
 were not sent, also of those that wait for their t.\n\n\
 While the stream is open, also between two lines, it has control authority: sources of lower priority are refused. If \
@@ -53,7 +53,7 @@ pub(super) struct StreamArgs {
 const POLL_INTERVAL: Duration = Duration::from_millis(1);
 /// Polls between two checks that the controller is still there, which cost more.
 const POLLS_PER_CHECK: u32 = 100;
-/// InputLines that may wait between the thread that reads them and the one that sends them.
+/// Lines that may wait between the thread that reads them and the one that sends them.
 const READ_AHEAD: usize = 256;
 /// Most timed lines that are sent and have no reply: a few, so that a dense script is not late.
 const TIMED_UNANSWERED: usize = 16;

@@ -30,7 +30,7 @@ impl Controller {
             self.admission.reply(Reply { authority, ..self.refused(Reason::Outranked) });
         } else if request.intent == Some(Intent::Reset) {
             let nothing = Objection { reason: Reason::NothingToReset, active_limit: None };
-            let objection = self.state.latched().map_or(Some(nothing), |_| self.objection_to_reset());
+            let objection = if self.state.latched().is_some() { self.objection_to_reset() } else { Some(nothing) };
             if objection.is_none() {
                 self.reset();
             }
@@ -141,10 +141,14 @@ impl Controller {
         }
     }
 
-    /// Why the latched fault cannot be cleared; `None` if its cause is gone.
-    fn objection_to_reset(&self) -> Option<Objection> {
+    /// Why the latched fault cannot be cleared; `None` if its cause is gone. A refused reset makes the check of sensors
+    /// begin anew.
+    fn objection_to_reset(&mut self) -> Option<Objection> {
         let persists = Some(Objection { reason: Reason::FaultPersists, active_limit: None });
         if !self.validator.is_upright() || self.validator.is_stale() {
+            // What a sensor was cannot be told for ever from what it is: if its values are consistent from now on, the
+            // next reset finds nothing.
+            self.validator.begin_anew();
             return persists;
         }
         if !self.state.holds_posture() {

@@ -12,15 +12,17 @@ use crate::recovery::Recovery;
 
 /// Largest difference of a joint from its first setpoint with which a gait begins (rad): drives yield to the weight.
 const START_TOLERANCE: f64 = 0.05;
-/// Largest difference of a joint from its angle in a stand from which a robot on its feet can move to that stand (rad).
-pub(super) const STAND_TOLERANCE: f64 = 0.3;
+/// Largest difference of a joint of a leg or the waist from its angle in a stand from which a robot on its feet can
+/// move to that stand (rad): its feet slide by a few centimetres at most. Arms may be anywhere: their place depends on
+/// the step after which the robot stopped.
+pub(super) const STAND_TOLERANCE: f64 = 0.12;
 
 impl Controller {
     /// Takes note of a robot that sends its first measurement, or the first one since another robot was lost.
     ///
     /// * `measured` – its joint angles (rad)
     pub(super) fn find_robot(&mut self, measured: &JointVector) {
-        let (joint, difference) = largest_difference(measured, &self.limiter.hold().angles);
+        let (joint, difference) = largest_difference(measured, &self.limiter.hold().angles, |_| true);
         if difference <= START_TOLERANCE {
             return;
         }
@@ -34,9 +36,9 @@ impl Controller {
         }
     }
 
-    /// The joint that is farthest from its angle in a stand, and by how much (rad).
+    /// The joint of a leg or the waist that is farthest from its angle in a stand, and by how much (rad).
     pub(super) fn distance_from_stand(&self, measured: &JointVector) -> (Joint, f64) {
-        largest_difference(measured, &self.rest.physical_motion().angles)
+        largest_difference(measured, &self.rest.physical_motion().angles, |joint| !joint.is_in_arm())
     }
 
     fn is_near_stand(&self, measured: &JointVector) -> bool {
@@ -53,11 +55,11 @@ impl Controller {
     }
 }
 
-/// The joint with a motor that differs most, and by how much (rad).
-fn largest_difference(measured: &JointVector, wanted: &JointVector) -> (Joint, f64) {
+/// The joint with a motor that differs most, among those that `counts` selects, and by how much (rad).
+fn largest_difference(measured: &JointVector, wanted: &JointVector, counts: fn(Joint) -> bool) -> (Joint, f64) {
     Joint::ALL
         .into_iter()
-        .filter(|joint| joint.is_powered())
+        .filter(|&joint| joint.is_powered() && counts(joint))
         .map(|joint| (joint, (measured[joint] - wanted[joint]).abs()))
         .fold((Joint::FIRST_POWERED, 0.0), |largest, next| if next.1 > largest.1 { next } else { largest })
 }

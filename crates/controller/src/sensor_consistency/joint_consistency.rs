@@ -3,7 +3,7 @@
 use interface::{Fault, Measurement, Rejection, Sensor, Setpoint};
 use model::{Joint, JointVector};
 
-use super::ConsistencyParameters;
+use super::parameters::ConsistencyParameters;
 
 /// Time over which the mean tracking error is formed (s): pushes and impacts are shorter.
 const BIAS_TIME_CONSTANT: f64 = 0.3;
@@ -12,7 +12,8 @@ const CORRECTION_TIME_CONSTANT: f64 = 0.1;
 /// Longest gap between samples over which rates can be integrated (s).
 const INTEGRABLE: f64 = 0.005;
 
-/// Finds encoders that are off, stuck or reversed, drives that do not follow, and rates that are not those of the angles.
+/// Finds encoders that are off, stuck or reversed, drives that do not follow, and rates that are not those of the
+/// angles.
 #[derive(Clone, Debug, Default)]
 pub(super) struct JointConsistency {
     /// Mean tracking error (rad).

@@ -2,7 +2,7 @@
 
 use interface::{Fault, Rejection, Sensor};
 
-use super::ExpectedSupport;
+use super::expectation::ExpectedSupport;
 
 /// Time over which the mean load is formed (s): impacts are shorter.
 const TIME_CONSTANT: f64 = 0.1;

@@ -5,6 +5,8 @@ use nalgebra::Vector3;
 
 /// Time constant with which the predicted vertical is corrected by the measured one (s).
 const CORRECTION_TIME_CONSTANT: f64 = 0.2;
+/// Longest gap between samples over which the gyro's rate can be integrated (s).
+const INTEGRABLE: f64 = 0.01;
 
 /// A complementary filter whose innovation is watched: the vertical that the gyro predicts, corrected slowly by the
 /// measured one. Steps and drifts of the orientation, and bias, sign and scale of the gyro drive them apart.
@@ -27,6 +29,9 @@ impl TrunkConsistency {
         error_max: f64,
         dt: f64,
     ) -> Option<Rejection> {
+        if dt > INTEGRABLE {
+            *self = Self::default();
+        }
         let rate = (sample.angular_rate + last.angular_rate) / 2.0;
         // u̇ = u × ω in trunk axes.
         let predicted = self.vertical.map_or(*vertical, |last| last + last.cross(&(rate * dt)));

@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use super::each_row::{Row, each_row};
+use super::each_row::{RunRow, each_row};
 use super::{ControllerRow, CsvRow, PlantRow};
 
 /// Why a CSV file could not be written.
@@ -30,8 +30,8 @@ pub enum CsvError {
 pub fn write_csv(run: &Path, dir: &Path) -> Result<[PathBuf; 2], CsvError> {
     let (mut plant, mut controller) = (CsvFile::create::<PlantRow>(dir)?, CsvFile::create::<ControllerRow>(dir)?);
     each_row(run, |row| match row {
-        Row::Plant(row) => plant.write(&row),
-        Row::Controller(row) => controller.write(&row),
+        RunRow::Plant(row) => plant.write(&row),
+        RunRow::Controller(row) => controller.write(&row),
     })?;
     Ok([plant.finish()?, controller.finish()?])
 }

@@ -8,7 +8,7 @@ use super::from_recording;
 use super::rows::{ControllerRow, PlantRow};
 
 /// A row of the plant or of the controller.
-pub(super) enum Row {
+pub(super) enum RunRow {
     Plant(PlantRow),
     Controller(ControllerRow),
 }
@@ -17,7 +17,7 @@ pub(super) enum Row {
 ///
 /// # Errors
 /// There is no recording, or it has another version.
-pub(super) fn each_row(run: &Path, mut take: impl FnMut(Row)) -> Result<Vec<String>, RecordError> {
+pub(super) fn each_row(run: &Path, mut take: impl FnMut(RunRow)) -> Result<Vec<String>, RecordError> {
     let mut cuts = Vec::new();
     for file in files_of(run)? {
         let mut recording = Recording::open(&file)?;
@@ -29,10 +29,15 @@ pub(super) fn each_row(run: &Path, mut take: impl FnMut(Row)) -> Result<Vec<Stri
                 RunEvent::Report(message) => {
                     if let Ok(report) = message.checked() {
                         let timing = message.timing();
-                        take(Row::Controller(from_recording::of_controller(stamped.time(), &tick, &timing, &report)));
+                        take(RunRow::Controller(from_recording::of_controller(
+                            stamped.time(),
+                            &tick,
+                            &timing,
+                            &report,
+                        )));
                     }
                 }
-                RunEvent::Truth(message) => take(Row::Plant(from_recording::of_plant(stamped.time(), &message))),
+                RunEvent::Truth(message) => take(RunRow::Plant(from_recording::of_plant(stamped.time(), &message))),
                 _ => {}
             }
         }

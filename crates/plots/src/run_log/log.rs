@@ -4,7 +4,7 @@ use std::path::Path;
 
 use record::RecordError;
 
-use super::each_row::{Row, each_row};
+use super::each_row::{RunRow, each_row};
 use super::rows::{ControllerRow, PlantRow};
 use super::thinner::{Survey, Thinner};
 
@@ -32,8 +32,8 @@ impl RunLog {
         let mut survey = Survey::default();
         let mut drawable = Drawable::default();
         let notes = each_row(run, |row| match drawable.filter(row) {
-            Some(Row::Plant(row)) => survey.note_plant(&row),
-            Some(Row::Controller(row)) => survey.note_controller(&row),
+            Some(RunRow::Plant(row)) => survey.note_plant(&row),
+            Some(RunRow::Controller(row)) => survey.note_controller(&row),
             None => {}
         })?;
         let mut log = Self { notes, ..Self::default() };
@@ -41,8 +41,8 @@ impl RunLog {
         let is_short = survey.is_short();
         let (mut thinner, mut drawable) = (Thinner::new(survey), Drawable::default());
         each_row(run, |row| match drawable.filter(row) {
-            Some(Row::Plant(row)) if is_short || thinner.keeps_plant(&row) => log.plant.push(row),
-            Some(Row::Controller(row)) if is_short || thinner.keeps_controller(&row) => log.controller.push(row),
+            Some(RunRow::Plant(row)) if is_short || thinner.keeps_plant(&row) => log.plant.push(row),
+            Some(RunRow::Controller(row)) if is_short || thinner.keeps_controller(&row) => log.controller.push(row),
             _ => {}
         })?;
         log.notes.extend(log.missing_part());
@@ -57,8 +57,8 @@ impl RunLog {
             _ => return None,
         };
         Some(format!(
-            "it holds no {which}: only {rest} can be drawn. Give controller and plant the same --out, or put both files \
-             into one folder"
+            "it holds no {which}: only {rest} can be drawn. Give controller and plant the same --out, or put both \
+             files into one folder"
         ))
     }
 
@@ -79,14 +79,14 @@ struct Drawable {
 }
 
 impl Drawable {
-    fn filter(&mut self, row: Row) -> Option<Row> {
+    fn filter(&mut self, row: RunRow) -> Option<RunRow> {
         let (time, which) = match &row {
-            Row::Plant(row) => (row.time, 0),
-            Row::Controller(row) => (row.time, 1),
+            RunRow::Plant(row) => (row.time, 0),
+            RunRow::Controller(row) => (row.time, 1),
         };
         let row = match row {
-            Row::Plant(row) => row.plausible().map(Row::Plant),
-            Row::Controller(row) => row.plausible().map(Row::Controller),
+            RunRow::Plant(row) => row.plausible().map(RunRow::Plant),
+            RunRow::Controller(row) => row.plausible().map(RunRow::Controller),
         };
         let row = row.filter(|_| time >= self.last[which]);
         if row.is_some() {

@@ -1,0 +1,22 @@
+//! What is expected of a measurement.
+
+use interface::Setpoint;
+use model::Side;
+
+/// What is commanded, and so expected of a measurement.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Expectation<'a> {
+    /// The last setpoint.
+    pub setpoint: &'a Setpoint,
+    /// What carries the robot; `None` where anything may, as in a stand.
+    pub support: Option<ExpectedSupport>,
+}
+
+/// What carries a robot that walks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ExpectedSupport {
+    /// Either foot, or both: a support change.
+    AnyFoot,
+    /// This foot alone.
+    OneFoot(Side),
+}
