@@ -8,6 +8,7 @@ use controller::{Controller, Driver, InlineWorker, Tick};
 use gait::{NominalTable, Start, Walk};
 use interface::{GaitChange, Intent, Measurement, Mode, Request, Setpoint, Source};
 use model::Mechanism;
+use pattern::PatternGenerator;
 use plant::{Plant, Truth};
 
 use crate::repository;
@@ -82,6 +83,18 @@ impl Walking {
         let measurement = plant.measure();
         let controller = Controller::new(mechanism, table, controller, Start::default()).expect("the nominal walks");
         let driver = Driver { controller, worker: InlineWorker };
+        Self { driver, plant, measurement, tick: 0, waiting: VecDeque::with_capacity(WAITING) }
+    }
+
+    /// In a stand, as with `--from-stand`.
+    pub fn stand(seed: u64) -> Self {
+        let (mechanism, parameters) = (crate::mechanism(), controller_parameters());
+        let walk = Walk::new(nominal(), &mechanism, &parameters.gait, Start::default()).expect("the nominal walks");
+        let start = PatternGenerator::standing(&mechanism, walk).physical_motion();
+        let mut plant = Plant::new(&mechanism, &plant_parameters(), &start, PERIOD, seed);
+        let measurement = plant.measure();
+        let controller = Controller::standing(&mechanism, nominal(), &parameters, Start::default());
+        let driver = Driver { controller: controller.expect("the nominal walks"), worker: InlineWorker };
         Self { driver, plant, measurement, tick: 0, waiting: VecDeque::with_capacity(WAITING) }
     }
 

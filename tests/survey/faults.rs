@@ -154,7 +154,7 @@ fn watch(
 
 /// Whether a measurement was rejected, or missed for too long. A fall that is noticed is no alarm.
 fn is_alarm(faults: interface::Faults) -> bool {
-    const ALARMS: [Fault; 7] = [
+    const ALARMS: [Fault; 8] = [
         Fault::MeasurementNotFinite,
         Fault::MeasurementImplausible,
         Fault::MeasurementStale,
@@ -162,6 +162,7 @@ fn is_alarm(faults: interface::Faults) -> bool {
         Fault::MeasurementFrozen,
         Fault::MeasurementInconsistent,
         Fault::JointOffSetpoint,
+        Fault::OrientationAskew,
     ];
     ALARMS.into_iter().any(|fault| faults.contains(fault))
 }

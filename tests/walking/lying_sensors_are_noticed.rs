@@ -16,11 +16,12 @@ use rand::Rng;
 /// Longest time until a fault is noticed (s).
 const NOTICED_WITHIN: f64 = 0.4;
 /// What a fault of a sensor is noticed by.
-const ALARMS: [Fault; 5] = [
+const ALARMS: [Fault; 6] = [
     Fault::MeasurementImplausible,
     Fault::MeasurementFrozen,
     Fault::MeasurementInconsistent,
     Fault::JointOffSetpoint,
+    Fault::OrientationAskew,
     Fault::MeasurementStale,
 ];
 
@@ -75,6 +76,27 @@ fn every_lasting_sensor_fault_is_named_and_ends_the_walk() {
             assert!(named == Some(sensor) || is_either_foot, "`{fault}` from {start} s: {named:?}");
             assert!(matches!(mode, Mode::Faulted | Mode::Fallen), "`{fault}` from {start} s: {mode:?}");
         }
+    }
+}
+
+/// An orientation that is off from the start contradicts nothing but the way the robot stands. It does not set out.
+#[test]
+fn a_robot_whose_orientation_was_always_askew_says_so_and_stays() {
+    for degrees in [-3, -2, 2, 3] {
+        let script = format!(
+            "[[sensor_fault]]\nat_s = 0\nlasts_s = 60\nkind = \"spike\"\nvalues = \"orientation\"\n\
+             size_deg = {degrees}"
+        );
+        let mut walking = Walking::stand(1);
+        walking.plant.disturbances = Disturbances::from_toml(&script, "script").unwrap();
+        walking.walk(0.1);
+        walking.ask(GaitChange::NONE, Some(Intent::Walk));
+        walking.walk(1.0);
+        let latched = walking.tick(None).latched.map(|latched| latched.fault);
+        assert_eq!(latched, Some(Fault::OrientationAskew), "{degrees}°");
+        assert!(!walking.walk(6.0).has_fallen(), "{degrees}°");
+        let tick = walking.tick(None);
+        assert_eq!((tick.report.mode, tick.report.half_step.index), (Mode::Faulted, 0), "{degrees}°");
     }
 }
 
@@ -160,6 +182,37 @@ fn no_alarm_is_raised_by_tiles_slopes_and_pushes() {
                 let push = Direction::ToSwing.in_world(&walking, report.half_step.support) * 6.0;
                 walking.plant.push(push, PUSH_DURATION);
             }
+        }
+    }
+}
+
+#[test]
+fn no_alarm_is_raised_in_a_stand_on_tiles_and_slopes_that_is_pushed() {
+    let floors: [fn(&mut plant::PlantParameters); 5] = [
+        |_| {},
+        |plant| plant.unevenness.height = 0.002,
+        |plant| plant.slope.ahead = 2_f64.to_radians(),
+        |plant| plant.slope.ahead = -2_f64.to_radians(),
+        |plant| plant.slope.left = 2_f64.to_radians(),
+    ];
+    for (number, floor) in floors.into_iter().enumerate() {
+        let mut plant = plant_parameters();
+        floor(&mut plant);
+        for intent in [Intent::Stop, Intent::Hold] {
+            let mut walking = Walking::begin_with(&halfstep_tests::mechanism(), &controller_parameters(), &plant, 0);
+            walking.walk(2.0);
+            walking.ask(GaitChange::NONE, Some(intent));
+            walking.walk(4.0);
+            for direction in Direction::ALL {
+                let support = walking.tick(None).report.half_step.support;
+                let push = direction.in_world(&walking, support) * 8.0;
+                walking.plant.push(push, PUSH_DURATION);
+                for _ in 0..3000 {
+                    let report = walking.tick(None).report;
+                    assert!(!is_alarm(report.faults), "floor {number}, {intent:?}, {:.2} s", walking.time());
+                }
+            }
+            assert!(!walking.plant.truth().has_fallen(), "floor {number}, {intent:?}");
         }
     }
 }

@@ -20,6 +20,7 @@ use stabilizer::{
 use crate::admission_control::AdmissionControl;
 use crate::admission_job::AdmissionJob;
 use crate::command_arbiter::CommandArbiter;
+use crate::gravity_consistency::GravityConsistency;
 use crate::joint_limiter::JointLimiter;
 use crate::measurement_validator::MeasurementValidator;
 use crate::operating_state::OperatingState;
@@ -64,6 +65,7 @@ pub struct Controller {
     measured_angles: Option<JointVector>,
     /// The joint by which the robot was found in another posture than the controller begins in, while it holds it.
     unexpected_posture: Option<Rejection>,
+    gravity: GravityConsistency,
     /// The last estimate of the centre of mass over this support foot, and its age (s).
     last_com: Option<(ComState, f64)>,
     /// Time since the first tick began (s).
@@ -137,6 +139,7 @@ impl Controller {
             last_setpoint: None,
             measured_angles: None,
             unexpected_posture: None,
+            gravity: GravityConsistency::default(),
             last_com: None,
             time: 0.0,
             latched: None,
@@ -163,6 +166,7 @@ impl Controller {
 
         // Where is the robot? A measurement answers the setpoint of the tick before: `reference` is still that one's.
         let com_measured = self.estimate(measurement, dt, &mut faults);
+        self.check_gravity(com_measured.as_ref(), dt, &mut faults);
 
         // What does balance command? No new sample is no reason to take the error for none.
         let com = com_measured.or_else(|| self.extrapolate(dt));
@@ -263,7 +267,11 @@ impl Controller {
         }
         let gait = self.pattern.gait_mut();
         let support = gait.half_step().support;
-        let measured = SupportFrameMeasurement::new(support, gait.walk().mirror(), measurement, up_in_trunk);
+        let mut measured = SupportFrameMeasurement::new(support, gait.walk().mirror(), measurement, up_in_trunk);
+        // An orientation that is known to be askew still serves to come to a stand.
+        if let Some(askew) = self.gravity.askew(support) {
+            measured.up_in_trunk = (measured.up_in_trunk + askew.push(0.0)).normalize();
+        }
         self.kinematics.compute_fixed_base(&self.tree, &measured.angles);
         self.contact = self.zmp_estimator.update(&measured, &self.kinematics, &self.mechanism, dt);
         if self.contact.zmp.is_none() {
@@ -280,6 +288,19 @@ impl Controller {
         let com = estimate_com(&self.tree, &self.kinematics, &measured);
         self.last_com = Some((com, 0.0));
         Some(com)
+    }
+
+    /// Latches a fault if the measured vertical is not the one by which the robot moves.
+    fn check_gravity(&mut self, com: Option<&ComState>, dt: f64, faults: &mut Faults) {
+        let gait = self.pattern.gait();
+        let stands = self.follows_walk() && gait.in_double_support();
+        let Some(&com) = com.filter(|_| stands) else { return self.gravity.interrupt() };
+        let measured = BalanceState { com, tilt: self.tilt, zmp: self.contact.zmp };
+        let planned = BalanceState::planned(&self.reference);
+        if self.gravity.update(&measured, &planned, gait.half_step().support, dt) {
+            faults.insert(Fault::OrientationAskew);
+            self.latch(Fault::OrientationAskew);
+        }
     }
 
     /// The centre of mass now, by its last position and velocity; `None` when they are too old.

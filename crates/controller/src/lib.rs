@@ -10,6 +10,7 @@ mod admission_job;
 mod command_arbiter;
 mod controller;
 mod driver;
+mod gravity_consistency;
 mod joint_limiter;
 mod measurement_validator;
 mod operating_state;

@@ -36,6 +36,8 @@ codes! {
         JointOffSetpoint = 8192 "a joint is not where it was commanded to be",
         /// The robot is not in the posture in which the controller begins, nor in a stand; it holds its posture.
         UnexpectedPosture = 16384 "the robot is not in the posture in which the controller begins",
+        /// For several half-steps the robot has moved as if the vertical were another one than the measured one.
+        OrientationAskew = 65536 "the measured orientation and the forces on the feet disagree about the vertical",
         /// The run can no longer be recorded.
         NotRecorded = 32768 "the run can no longer be recorded",
         /// The control loop missed a deadline.

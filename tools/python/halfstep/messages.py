@@ -98,6 +98,7 @@ class Fault(IntFlag):
     MEASUREMENT_INCONSISTENT = 4096  # sensors contradict each other
     JOINT_OFF_SETPOINT = 8192  # a joint is not where it was commanded to be
     UNEXPECTED_POSTURE = 16384  # the robot is not in the posture in which the controller begins
+    ORIENTATION_ASKEW = 65536  # the measured orientation and the forces on the feet disagree about the vertical
     NOT_RECORDED = 32768  # the run can no longer be recorded
     DEADLINE_MISSED = 512  # a deadline was missed
 

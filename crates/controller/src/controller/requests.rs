@@ -164,6 +164,7 @@ impl Controller {
 
     /// Clears the latched fault. A robot that holds its posture moves to a stand first.
     fn reset(&mut self) {
+        self.gravity.reset();
         match self.measured_angles {
             Some(measured) if self.state.holds_posture() => self.recover(&measured),
             _ => self.state.clear_fault(),
