@@ -17,14 +17,29 @@ fn names(command_line: &CommandLine, folder: &str) -> Vec<String> {
 }
 
 #[test]
-fn a_walk_into_the_folder_of_another_run_is_refused() {
+fn a_walk_into_the_folder_of_another_run_sets_that_aside() {
     let command_line = command_line();
     assert_eq!(command_line.run("walk --lockstep --for 1s --out run").code, Some(0));
     let before = fs::read(command_line.folder().join("run/run.mcap")).unwrap();
+    for (seed, aside) in [(1, "run-1"), (2, "run-2")] {
+        let ended = command_line.run(&format!("walk --lockstep --for 1s --seed {seed} --out run"));
+        assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+        assert!(ended.stderr.contains(&format!("run: held an earlier run, which is in {aside} now\n")));
+        assert_ne!(fs::read(command_line.folder().join("run/run.mcap")).unwrap(), before);
+        assert!(command_line.run(&format!("replay {aside}")).stdout.starts_with("identical"), "{aside}");
+    }
+    assert_eq!(fs::read(command_line.folder().join("run-1/run.mcap")).unwrap(), before);
+}
+
+#[test]
+fn a_walk_into_the_folder_of_a_run_that_goes_on_is_refused() {
+    let command_line = command_line();
+    let controller = command_line.start_here("controller --out run");
+    command_line.wait_for_controller();
     let ended = command_line.run("walk --lockstep --for 1s --out run");
-    assert_eq!(ended.code, Some(2));
-    assert_eq!(ended.stderr, "run: a run was recorded there already (run.mcap); choose another folder, or remove it\n");
-    assert_eq!(fs::read(command_line.folder().join("run/run.mcap")).unwrap(), before);
+    assert_ne!(ended.code, Some(0));
+    assert!(ended.stderr.contains("run/controller.mcap"), "{}", ended.stderr);
+    controller.end();
 }
 
 #[test]

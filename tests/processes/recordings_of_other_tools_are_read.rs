@@ -6,6 +6,7 @@ use std::io::Write;
 use std::path::Path;
 
 use halfstep_tests::command_line::CommandLine;
+use halfstep_tests::repository;
 
 const MAGIC: &[u8] = b"\x89MCAP0\r\n";
 /// Kinds of records.
@@ -220,4 +221,22 @@ fn what_a_recording_lacks_is_said_and_no_empty_picture_is_drawn() {
     assert_eq!(replayed.code, Some(1));
     assert!(replayed.stdout.starts_with("nothing to compare: no setpoint was recorded\n"), "{}", replayed.stdout);
     assert_eq!(command_line.run("replay empty.mcap").code, Some(2));
+}
+
+/// Requests and replies have got fields since; what earlier versions recorded is still drawn and compared.
+#[test]
+fn recordings_of_earlier_versions_are_read() {
+    let cases = repository().join("../shared/cases");
+    if !cases.exists() {
+        println!("NOT RUN: {} is not there", cases.display());
+        return;
+    }
+    let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
+    for file in ["20-attachments-at-the-end/rewritten.mcap", "21-compressed-recording/zstd.mcap"] {
+        let file = cases.join(file);
+        let drawn = command_line.run(&format!("plot {} --out pictures", file.display()));
+        assert_eq!(drawn.code, Some(0), "{}", drawn.stderr);
+        let replayed = command_line.run(&format!("replay {}", file.display()));
+        assert!(replayed.stdout.starts_with("differs in tick 0"), "{}{}", replayed.stdout, replayed.stderr);
+    }
 }

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use interface::{Measurement, Setpoint};
+use model::JointVector;
 use plant::{Instability, Plant};
 use runtime::{Rate, now_ns};
 use wire::{LatestWriter, MeasurementMessage, SetpointMessage};
@@ -15,8 +16,6 @@ use crate::recorder::Recorder;
 
 /// Time between two records of the robot's true state.
 const TRUTH_INTERVAL: Duration = Duration::from_millis(5);
-/// A controller that has been running for less begins as the plant does.
-const BEGIN: Duration = Duration::from_millis(250);
 /// Largest differences of a setpoint from the initial posture (rad) and its rates (rad/s) with which the robot is let
 /// go.
 const RELEASE_TOLERANCE: [f64; 2] = [0.05, 0.3];
@@ -47,23 +46,18 @@ pub struct PlantRun {
 struct Intervals {
     truth_ticks: u64,
     after_fall_ticks: u64,
-    begin_ticks: u64,
 }
 
 impl Intervals {
     fn at(rate: Rate) -> Self {
-        Self {
-            truth_ticks: rate.ticks(TRUTH_INTERVAL).max(1),
-            after_fall_ticks: rate.ticks(AFTER_FALL),
-            begin_ticks: rate.ticks(BEGIN),
-        }
+        Self { truth_ticks: rate.ticks(TRUTH_INTERVAL).max(1), after_fall_ticks: rate.ticks(AFTER_FALL) }
     }
 }
 
 /// Runs until the cycles end, until the simulation has become unstable or, if `end_when_fallen`, until half a second
-/// after the robot has fallen. The robot is held where it is until the first setpoint of a controller that begins as
-/// well, or that begins there: one that has been running for long commands another posture, which would throw the robot
-/// over. `step` computes the physics of one control period.
+/// after the robot has fallen. The robot is held where it is until a controller begins there: one that commands another
+/// posture would throw the robot over, and one that only keeps the joints where they are balances nothing. `step`
+/// computes the physics of one control period.
 ///
 /// # Errors
 /// In lockstep no setpoint has arrived for too long, or the physics cannot be computed.
@@ -80,7 +74,7 @@ pub fn run_plant(
     let mut setpoint = initial;
     let mut is_held = true;
     let (mut began_ns, mut last_tick) = (None, None);
-    let Intervals { truth_ticks, after_fall_ticks, begin_ticks } = Intervals::at(cycles.rate());
+    let Intervals { truth_ticks, after_fall_ticks } = Intervals::at(cycles.rate());
     let mut next_truth = truth_ticks;
     recorder.push(PlantEntry { tick: 0, angles: plant.robot.angles, truth: plant.truth() });
     measurements.write(&MeasurementMessage::new(0, now_ns(), &plant.measure()));
@@ -99,7 +93,7 @@ pub fn run_plant(
             setpoint = valid;
         }
 
-        is_held &= cycle.message.tick > begin_ticks && !begins_at(&setpoint, &initial);
+        is_held &= only_holds(&setpoint) || !begins_at(&setpoint, &initial);
         let mut pass = || if is_held { Ok(plant.hold()) } else { step(plant, &setpoint) };
         let mut measured = pass()?;
         for _ in 1..cycle.periods {
@@ -133,6 +127,11 @@ pub fn run_plant(
 fn begins_at(setpoint: &Setpoint, initial: &Setpoint) -> bool {
     let [angle, rate] = RELEASE_TOLERANCE;
     (setpoint.angles - initial.angles).max_abs() <= angle && (setpoint.rates - initial.rates).max_abs() <= rate
+}
+
+/// Whether a setpoint does no more than keep the joints where they are, as after a fault.
+fn only_holds(setpoint: &Setpoint) -> bool {
+    setpoint.rates == JointVector::ZERO && setpoint.feed_forward == JointVector::ZERO
 }
 
 #[cfg(test)]

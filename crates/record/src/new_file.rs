@@ -4,7 +4,7 @@ use std::fs::{self, File, TryLockError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use crate::RecordError;
+use crate::{RecordError, files_of};
 
 /// Creates a file that this process alone writes to. An earlier one of this name is [set aside](set_aside).
 ///
@@ -13,11 +13,8 @@ use crate::RecordError;
 pub(crate) fn create(path: &Path) -> Result<File, RecordError> {
     set_aside(path)?;
     let file = File::create_new(path).map_err(RecordError::io(path))?;
-    match file.try_lock() {
-        Ok(()) => Ok(file),
-        Err(TryLockError::WouldBlock) => Err(RecordError::InUse { file: path.to_owned() }),
-        Err(TryLockError::Error(error)) => Err(RecordError::io(path)(error)),
-    }
+    require_unused(path, &file)?;
+    Ok(file)
 }
 
 /// Gives an earlier recording the next free name: `run.mcap` becomes `run-1.mcap`. Without one nothing happens.
@@ -25,18 +22,45 @@ pub(crate) fn create(path: &Path) -> Result<File, RecordError> {
 /// # Errors
 /// Another process is writing to it, or it cannot be renamed.
 pub fn set_aside(path: &Path) -> Result<(), RecordError> {
-    let earlier = match File::open(path) {
-        Ok(earlier) => earlier,
+    match File::open(path) {
+        Ok(earlier) => require_unused(path, &earlier)?,
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
         Err(error) => return Err(RecordError::io(path)(error)),
-    };
-    match earlier.try_lock() {
-        Ok(()) => {}
-        Err(TryLockError::WouldBlock) => return Err(RecordError::InUse { file: path.to_owned() }),
-        Err(TryLockError::Error(error)) => return Err(RecordError::io(path)(error)),
     }
+    fs::rename(path, free_name(path)).map_err(RecordError::io(path))
+}
+
+/// Gives a folder that holds a run the next free name: `run` becomes `run-1`, which is returned. Without a run nothing
+/// happens.
+///
+/// # Errors
+/// Another process is writing to the run, or the folder cannot be renamed.
+pub fn set_folder_aside(folder: &Path) -> Result<Option<PathBuf>, RecordError> {
+    if !folder.is_dir() {
+        return Ok(None);
+    }
+    let Ok(files) = files_of(folder) else { return Ok(None) };
+    for file in files {
+        require_unused(&file, &File::open(&file).map_err(RecordError::io(&file))?)?;
+    }
+    let free = free_name(folder);
+    fs::rename(folder, &free).map_err(RecordError::io(folder))?;
+    Ok(Some(free))
+}
+
+/// Makes sure that no process writes to a file.
+fn require_unused(path: &Path, file: &File) -> Result<(), RecordError> {
+    match file.try_lock() {
+        Ok(()) => Ok(()),
+        Err(TryLockError::WouldBlock) => Err(RecordError::InUse { file: path.to_owned() }),
+        Err(TryLockError::Error(error)) => Err(RecordError::io(path)(error)),
+    }
+}
+
+/// The first name with a number that is free.
+fn free_name(path: &Path) -> PathBuf {
     let free = (1..).map(|number| numbered(path, number)).find(|free| !free.exists());
-    fs::rename(path, free.unwrap_or_else(|| path.to_owned())).map_err(RecordError::io(path))
+    free.unwrap_or_else(|| path.to_owned())
 }
 
 /// `run.mcap` with a number: `run-1.mcap`.

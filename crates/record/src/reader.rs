@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use mcap::records::Record;
 
+use crate::older_layout::OlderLayout;
 use crate::record_stream::{RecordStream, Stop};
 use crate::schema::{self, HEAD, MESSAGE_ENCODING, SCHEMA_ENCODING};
 use crate::{CONTROLLER_FILE, Channel, Metadata, PLANT_FILE, Provenance, RUN_FILE, RecordError, RunEvent};
@@ -19,8 +20,8 @@ pub struct Recording {
     records: RecordStream,
     /// Encoding and text of the schemas, by MCAP's numbers.
     schemas: HashMap<u16, (String, String)>,
-    /// The channels, by MCAP's numbers.
-    channels: HashMap<u16, Channel>,
+    /// The channels, by MCAP's numbers, and the layout of their messages if it is that of an earlier version.
+    channels: HashMap<u16, (Channel, Option<OlderLayout>)>,
     /// Whether the end of the file has been read.
     is_whole: bool,
     /// Why the end of the file is missing.
@@ -185,13 +186,16 @@ impl Recording {
             Record::Channel(channel) => {
                 let ours = Channel::ALL.iter().find(|ours| ours.topic() == channel.topic);
                 if let Some(&ours) = ours {
-                    self.check(ours, channel.schema_id, &channel.message_encoding)?;
-                    self.channels.insert(channel.id, ours);
+                    let older = self.check(ours, channel.schema_id, &channel.message_encoding)?;
+                    self.channels.insert(channel.id, (ours, older));
                 }
             }
             Record::Message { header, data } => {
-                let Some(channel) = self.channels.get(&header.channel_id) else { return Ok(None) };
-                let event = data.strip_prefix(&HEAD).and_then(|bytes| channel.decode(bytes));
+                let Some((channel, older)) = self.channels.get(&header.channel_id) else { return Ok(None) };
+                let event = data.strip_prefix(&HEAD).and_then(|bytes| match older {
+                    Some(older) => older.convert(bytes).and_then(|bytes| channel.decode(&bytes)),
+                    None => channel.decode(bytes),
+                });
                 let event = event.ok_or_else(|| RecordError::WrongSize {
                     file: self.path.clone(),
                     topic: channel.topic().to_owned(),
@@ -222,13 +226,17 @@ impl Recording {
         Ok(None)
     }
 
-    /// Checks that the messages of a channel have the layout of this version.
-    fn check(&self, channel: Channel, schema: u16, encoding: &str) -> Result<(), RecordError> {
+    /// Checks that the messages of a channel can be read. Returns their layout if it is that of an earlier version.
+    fn check(&self, channel: Channel, schema: u16, encoding: &str) -> Result<Option<OlderLayout>, RecordError> {
         let expected = schema::text(&channel.layout());
         let none = (String::new(), String::new());
         let (schema_encoding, text) = self.schemas.get(&schema).unwrap_or(&none);
-        if *text == expected && schema_encoding == SCHEMA_ENCODING && encoding == MESSAGE_ENCODING {
-            return Ok(());
+        let is_ours = schema_encoding == SCHEMA_ENCODING && encoding == MESSAGE_ENCODING;
+        if is_ours && *text == expected {
+            return Ok(None);
+        }
+        if let Some(older) = OlderLayout::of(text, &channel.layout()).filter(|_| is_ours) {
+            return Ok(Some(older));
         }
         let line = |text: &str| text.lines().next().unwrap_or("nothing known").trim_start_matches("# ").to_owned();
         Err(RecordError::OtherVersion {

@@ -18,7 +18,7 @@ use operator::script::{Reader, ScriptError, TimedRequest};
 use operator::script_runner::ScriptRunner;
 use plots::picture;
 use plots::run_log::RunLog;
-use record::{RUN_FILE, files_of, merge};
+use record::{RUN_FILE, files_of, merge, set_folder_aside};
 use runtime::Rate;
 use wire::{ConnectError, Instance, InstanceName, Leftovers, ObserverPorts, OperatorPorts};
 
@@ -145,15 +145,11 @@ impl WalkArgs {
     /// Folder for the results.
     fn folder(&self) -> Result<PathBuf, CliError> {
         if let Some(folder) = &self.out {
+            if let Some(aside) = set_folder_aside(folder)? {
+                tell(format_args!("{}: held an earlier run, which is in {} now", folder.display(), aside.display()));
+            }
             fs::create_dir_all(folder).map_err(CliError::file(folder))?;
-            return match files_of(folder) {
-                Ok(files) => Err(CliError::bad_input(format!(
-                    "{}: a run was recorded there already ({}); choose another folder, or remove it",
-                    folder.display(),
-                    files[0].file_name().unwrap_or_default().to_string_lossy()
-                ))),
-                Err(_) => Ok(folder.clone()),
-            };
+            return Ok(folder.clone());
         }
         let runs = Path::new("runs");
         fs::create_dir_all(runs).map_err(CliError::file(runs))?;

@@ -1,0 +1,127 @@
+//! Messages of earlier versions, read as those of this one.
+//!
+//! A recording holds the layout of its messages. Where this version has only added fields for which zero means that
+//! there is nothing, a message is taken over field by field.
+
+use std::ops::Range;
+
+use wire::{Layout, NumberType};
+
+/// Layouts of earlier versions that can be read.
+const OLDER: [&str; 2] = ["halfstep.Request.v2", "halfstep.Reply.v2"];
+
+/// How a message of an earlier version becomes one of this version.
+pub(crate) struct OlderLayout {
+    /// Size of the earlier message (bytes).
+    from_size: usize,
+    /// Size of this version's message (bytes).
+    to_size: usize,
+    /// Where each field was, and where it begins now.
+    fields: Vec<(Range<usize>, usize)>,
+}
+
+impl OlderLayout {
+    /// The layout of a schema, if it is an earlier one of `layout` that can be read.
+    pub(crate) fn of(schema: &str, layout: &Layout) -> Option<Self> {
+        let mut lines = schema.lines();
+        let name = lines.next()?.strip_prefix("# ")?;
+        let message = |name: &str| name.rsplit_once('.').map(|(message, _)| message.to_owned());
+        if !OLDER.contains(&name) || message(name) != message(layout.type_name) {
+            return None;
+        }
+        let (mut from_size, mut fields) = (0, Vec::new());
+        for line in lines {
+            let (kind, name) = line.split_once(' ')?;
+            let field = layout.fields.iter().find(|field| field.name == name)?;
+            let (number, size) = match field.number {
+                NumberType::U32 => ("uint32", 4),
+                NumberType::U64 => ("uint64", 8),
+                NumberType::F64 => ("float64", 8),
+            };
+            if field.count.is_some() || kind != number {
+                return None;
+            }
+            fields.push((from_size..from_size + size, field.offset));
+            from_size += size;
+        }
+        Some(Self { from_size, to_size: layout.size, fields })
+    }
+
+    /// The bytes of this version's message; `None` if there are too many or too few.
+    pub(crate) fn convert(&self, bytes: &[u8]) -> Option<Vec<u8>> {
+        if bytes.len() != self.from_size {
+            return None;
+        }
+        let mut message = vec![0; self.to_size];
+        for (from, to) in &self.fields {
+            message[*to..to + from.len()].copy_from_slice(&bytes[from.clone()]);
+        }
+        Some(message)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use wire::{ReplyMessage, RequestMessage, WireLayout};
+
+    use super::*;
+    use crate::schema;
+
+    /// The schemas of version 0.1.0.
+    const REQUEST: &str = "# halfstep.Request.v2\nuint64 not_before\nuint32 present\nuint32 intent\nuint32 source\n\
+                           uint32 lasting\nfloat64 turn\nfloat64 speed\nfloat64 extension\nfloat64 age_limit\n";
+    const REPLY: &str = "# halfstep.Reply.v2\nuint32 verdict\nuint32 reason\nuint64 effect_half_step\nfloat64 turn\n\
+                         float64 speed\nfloat64 extension\nuint32 intent\nuint32 known\nuint32 joint\nuint32 source\n\
+                         float64 value\nfloat64 limit\nfloat64 remaining\nfloat64 predicted_margin\n";
+
+    #[test]
+    fn a_request_of_an_earlier_version_has_no_id_and_does_not_expire() {
+        let older = OlderLayout::of(REQUEST, &RequestMessage::layout()).unwrap();
+        let mut bytes = 7_u64.to_le_bytes().to_vec();
+        bytes.extend([1_u32, 2, 3, 0].map(u32::to_le_bytes).concat());
+        bytes.extend([0.1, 1.2, 0.3, 4.5].map(f64::to_le_bytes).concat());
+        let request = RequestMessage::decode(&older.convert(&bytes).unwrap()).unwrap();
+        let expected = RequestMessage {
+            not_before: 7,
+            present: 1,
+            intent: 2,
+            source: 3,
+            lasting: 0,
+            turn: 0.1,
+            speed: 1.2,
+            extension: 0.3,
+            age_limit: 4.5,
+            id: 0,
+            expires_ns: 0,
+        };
+        assert_eq!(request, expected);
+        assert_eq!(older.convert(&bytes[1..]), None);
+    }
+
+    #[test]
+    fn a_reply_of_an_earlier_version_names_no_mode_and_no_fault() {
+        let older = OlderLayout::of(REPLY, &ReplyMessage::layout()).unwrap();
+        let mut bytes = [1_u32, 0].map(u32::to_le_bytes).concat();
+        bytes.extend(5_u64.to_le_bytes());
+        bytes.extend([0.1, 1.2, 0.0].map(f64::to_le_bytes).concat());
+        bytes.extend([1_u32, 1, 0, 0].map(u32::to_le_bytes).concat());
+        bytes.extend([0.0; 4].map(f64::to_le_bytes).concat());
+        let reply = ReplyMessage::decode(&older.convert(&bytes).unwrap()).unwrap().checked().unwrap();
+        assert_eq!((reply.id, reply.mode, reply.latched, reply.effect_half_step), (0, None, None, 5));
+        assert_eq!((reply.granted.turn, reply.granted.speed), (0.1, 1.2));
+    }
+
+    #[test]
+    fn other_layouts_are_none_of_an_earlier_version() {
+        let layout = RequestMessage::layout();
+        for schema in [
+            REPLY.to_owned(),
+            REQUEST.replace("v2", "v1"),
+            REQUEST.replace("float64 turn", "uint64 turn"),
+            REQUEST.replace("turn", "roll"),
+            schema::text(&layout),
+        ] {
+            assert!(OlderLayout::of(&schema, &layout).is_none(), "{schema}");
+        }
+    }
+}
