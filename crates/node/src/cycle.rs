@@ -47,6 +47,8 @@ pub struct Cycles<M: Latest> {
     next_tick: u64,
     period: Option<Period>,
     follower: Option<PhaseFollower>,
+    /// Time of the message that was there before this process began, if that cannot be meant for it (ns).
+    left_over: Option<u64>,
     interrupt: Interrupt,
 }
 
@@ -114,12 +116,15 @@ impl<M: Latest> Cycles<M> {
         ticks: Option<u64>,
         interrupt: Interrupt,
     ) -> Self {
-        Self { timing, reader, peer, ticks, next_tick: 0, period: None, follower: None, interrupt }
+        Self { timing, reader, peer, ticks, next_tick: 0, period: None, follower: None, left_over: None, interrupt }
     }
 
-    /// The same with deadlines half a period after the other side's, so that its newest message is half a period old.
-    pub fn following(self) -> Self {
-        Self { follower: Some(PhaseFollower::default()), ..self }
+    /// The same for the side that is answered, with deadlines half a period after the other side's, so that its newest
+    /// message is half a period old. A message that is there already answers no message of this process: a killed one
+    /// has left it.
+    pub fn following(mut self) -> Self {
+        let left_over = self.reader.latest().map(|message| message.time_ns());
+        Self { follower: Some(PhaseFollower::default()), left_over, ..self }
     }
 
     /// Whether the process was asked to end.
@@ -189,6 +194,7 @@ impl<M: Latest> Cycles<M> {
         let is_realtime = self.timing.clock == Clock::Realtime;
         loop {
             let newest = self.reader.latest();
+            let newest = newest.filter(|message| self.left_over != Some(message.time_ns()));
             if let Some(message) = newest.filter(|message| is_realtime || message.tick() == expected) {
                 self.next_tick += 1;
                 return Ok(Some(self.cycle(expected, 1, message)));
