@@ -180,8 +180,11 @@ fn trip(way: &mut dyn Way<MeasurementMessage, SetpointMessage>, tick: u64) -> Re
             return Ok(());
         }
         looks += 1;
-        if looks.is_multiple_of(1 << 20) && now_ns() - *began.get_or_insert_with(now_ns) > TIMEOUT_NS {
-            return Err(BenchError::new("the process that answers", "no message for too long"));
+        if looks.is_multiple_of(1 << 20) {
+            let began_ns = *began.get_or_insert_with(now_ns);
+            if now_ns() - began_ns > TIMEOUT_NS {
+                return Err(BenchError::new("the process that answers", "no message for too long"));
+            }
         }
         spin_loop();
     }
