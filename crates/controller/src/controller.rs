@@ -1,5 +1,6 @@
 //! The controller: one tick, read from top to bottom.
 
+mod estimation;
 mod requests;
 mod robot_posture;
 
@@ -12,10 +13,8 @@ use interface::{
 };
 use model::{ComState, JointVector, Mechanism, Motion, Side};
 use nalgebra::Vector2;
-use pattern::{FeasibilityCheck, GaitPhase, PatternGenerator, Stance};
-use stabilizer::{
-    BalanceState, ContactEstimate, DcmFeedback, LandingCompliance, SupportFrameMeasurement, ZmpEstimator, estimate_com,
-};
+use pattern::{FeasibilityCheck, PatternGenerator, Stance};
+use stabilizer::{BalanceState, ContactEstimate, DcmFeedback, LandingCompliance, ZmpEstimator};
 
 use crate::admission_control::AdmissionControl;
 use crate::admission_job::AdmissionJob;
@@ -27,12 +26,7 @@ use crate::operating_state::OperatingState;
 use crate::parameters::Parameters;
 use crate::pattern::Pattern;
 use crate::report::{Tick, added_angles, to_physical};
-use crate::sensor_consistency::{Expectation, ExpectedSupport};
 
-/// With the measured ZMP this far inside a sole (m), the whole sole is on the ground.
-const FLAT_MARGIN: f64 = 0.005;
-/// Longest time over which the last estimate of the centre of mass is extrapolated (s).
-const EXTRAPOLATED_MAX: f64 = 0.02;
 /// Shortest period that a tick plays (s): rates are differences over it.
 const PERIOD_MIN: f64 = 1e-6;
 /// Longest period that a tick plays (s), shorter than any half-step: what a loop was late by beyond it is lost.
@@ -242,84 +236,6 @@ impl Controller {
     fn latch(&mut self, fault: Fault) {
         if self.state.latch(fault) {
             self.stop(Stance::Stride);
-        }
-    }
-
-    /// Absorbs a measurement and returns the measured centre of mass; `None` without a valid measurement, and in the
-    /// air.
-    fn estimate(&mut self, measurement: Option<&Measurement>, dt: f64, faults: &mut Faults) -> Option<ComState> {
-        // A robot that has fallen is moved by others.
-        let followed = self.last_setpoint.filter(|_| self.state.plays_gait());
-        let support = self.expected_support();
-        let expected = followed.as_ref().map(|setpoint| Expectation { setpoint, support });
-        let valid = self.validator.update(measurement, expected.as_ref(), dt, faults);
-        if self.validator.is_stale() && self.state.latched().is_none() {
-            self.latch(Fault::MeasurementStale);
-        }
-        if self.validator.has_fallen() {
-            faults.insert(Fault::Fallen);
-            self.state.fall();
-        }
-        let (measurement, up_in_trunk) = valid?;
-        self.measured_angles = Some(measurement.angles);
-        if self.validator.has_found_robot() {
-            self.find_robot(&measurement.angles);
-        }
-        let gait = self.pattern.gait_mut();
-        let support = gait.half_step().support;
-        let mut measured = SupportFrameMeasurement::new(support, gait.walk().mirror(), measurement, up_in_trunk);
-        // An orientation that is known to be askew still serves to come to a stand.
-        if let Some(askew) = self.gravity.askew(support) {
-            measured.up_in_trunk = (measured.up_in_trunk + askew.push(0.0)).normalize();
-        }
-        self.kinematics.compute_fixed_base(&self.tree, &measured.angles);
-        self.contact = self.zmp_estimator.update(&measured, &self.kinematics, &self.mechanism, dt);
-        if self.contact.zmp.is_none() {
-            faults.insert(Fault::InTheAir);
-            self.feedback.release();
-            self.last_com = None;
-            return None;
-        }
-        // A sole that bears alone, and not on an edge, lies flat: it leans as the floor does.
-        if self.contact.margin > FLAT_MARGIN && !self.contact.in_contact[1] {
-            gait.update_ground_slope(measured.up_over_sole(&self.kinematics).xy(), dt);
-        }
-        self.tilt = self.reference.tilt(&measured.up_in_trunk, gait.sensed_vertical());
-        let com = estimate_com(&self.tree, &self.kinematics, &measured);
-        self.last_com = Some((com, 0.0));
-        Some(com)
-    }
-
-    /// Latches a fault if the measured vertical is not the one by which the robot moves.
-    fn check_gravity(&mut self, com: Option<&ComState>, dt: f64, faults: &mut Faults) {
-        let gait = self.pattern.gait();
-        let stands = self.follows_walk() && gait.in_double_support();
-        let Some(&com) = com.filter(|_| stands) else { return self.gravity.interrupt() };
-        let measured = BalanceState { com, tilt: self.tilt, zmp: self.contact.zmp };
-        let planned = BalanceState::planned(&self.reference);
-        if self.gravity.update(&measured, &planned, gait.half_step().support, dt) {
-            faults.insert(Fault::OrientationAskew);
-            self.latch(Fault::OrientationAskew);
-        }
-    }
-
-    /// The centre of mass now, by its last position and velocity; `None` when they are too old.
-    fn extrapolate(&mut self, dt: f64) -> Option<ComState> {
-        let (com, age) = self.last_com.as_mut()?;
-        *age += dt;
-        com.position += com.velocity * dt;
-        (*age < EXTRAPOLATED_MAX).then_some(*com)
-    }
-
-    /// What must carry the robot now; `None` where anything may.
-    fn expected_support(&self) -> Option<ExpectedSupport> {
-        let gait = self.pattern.gait();
-        if !self.follows_walk() || matches!(gait.phase(), GaitPhase::Standing(_) | GaitPhase::Starting) {
-            None
-        } else if gait.in_double_support() || gait.is_changing_support() {
-            Some(ExpectedSupport::AnyFoot)
-        } else {
-            Some(ExpectedSupport::OneFoot(gait.half_step().support))
         }
     }
 

@@ -1,0 +1,99 @@
+//! What a measurement says about the robot: the contacts of its feet, its tilt, and its centre of mass.
+
+use interface::{Fault, Faults, Measurement};
+use model::ComState;
+use pattern::GaitPhase;
+use stabilizer::{BalanceState, SupportFrameMeasurement, estimate_com};
+
+use super::Controller;
+use crate::sensor_consistency::{Expectation, ExpectedSupport};
+
+/// With the measured ZMP this far inside a sole (m), the whole sole is on the ground.
+const FLAT_MARGIN: f64 = 0.005;
+/// Longest time over which the last estimate of the centre of mass is extrapolated (s).
+const EXTRAPOLATED_MAX: f64 = 0.02;
+
+impl Controller {
+    /// Absorbs a measurement and returns the measured centre of mass; `None` without a valid measurement, and in the
+    /// air.
+    pub(super) fn estimate(
+        &mut self,
+        measurement: Option<&Measurement>,
+        dt: f64,
+        faults: &mut Faults,
+    ) -> Option<ComState> {
+        // A robot that has fallen is moved by others.
+        let followed = self.last_setpoint.filter(|_| self.state.plays_gait());
+        let support = self.expected_support();
+        let expected = followed.as_ref().map(|setpoint| Expectation { setpoint, support });
+        let valid = self.validator.update(measurement, expected.as_ref(), dt, faults);
+        if self.validator.is_stale() && self.state.latched().is_none() {
+            self.latch(Fault::MeasurementStale);
+        }
+        if self.validator.has_fallen() {
+            faults.insert(Fault::Fallen);
+            self.state.fall();
+        }
+        let (measurement, up_in_trunk) = valid?;
+        self.measured_angles = Some(measurement.angles);
+        if self.validator.has_found_robot() {
+            self.find_robot(&measurement.angles);
+        }
+        let gait = self.pattern.gait_mut();
+        let support = gait.half_step().support;
+        let mut measured = SupportFrameMeasurement::new(support, gait.walk().mirror(), measurement, up_in_trunk);
+        // An orientation that is known to be askew still serves to come to a stand.
+        if let Some(askew) = self.gravity.askew(support) {
+            measured.up_in_trunk = (measured.up_in_trunk + askew.push(0.0)).normalize();
+        }
+        self.kinematics.compute_fixed_base(&self.tree, &measured.angles);
+        self.contact = self.zmp_estimator.update(&measured, &self.kinematics, &self.mechanism, dt);
+        if self.contact.zmp.is_none() {
+            faults.insert(Fault::InTheAir);
+            self.feedback.release();
+            self.last_com = None;
+            return None;
+        }
+        // A sole that bears alone, and not on an edge, lies flat: it leans as the floor does.
+        if self.contact.margin > FLAT_MARGIN && !self.contact.in_contact[1] {
+            gait.update_ground_slope(measured.up_over_sole(&self.kinematics).xy(), dt);
+        }
+        self.tilt = self.reference.tilt(&measured.up_in_trunk, gait.sensed_vertical());
+        let com = estimate_com(&self.tree, &self.kinematics, &measured);
+        self.last_com = Some((com, 0.0));
+        Some(com)
+    }
+
+    /// Latches a fault if the measured vertical is not the one by which the robot moves.
+    pub(super) fn check_gravity(&mut self, com: Option<&ComState>, dt: f64, faults: &mut Faults) {
+        let gait = self.pattern.gait();
+        let stands = self.follows_walk() && gait.in_double_support();
+        let Some(&com) = com.filter(|_| stands) else { return self.gravity.interrupt() };
+        let measured = BalanceState { com, tilt: self.tilt, zmp: self.contact.zmp };
+        let planned = BalanceState::planned(&self.reference);
+        if self.gravity.update(&measured, &planned, gait.half_step().support, dt) {
+            faults.insert(Fault::OrientationAskew);
+            self.latch(Fault::OrientationAskew);
+        }
+    }
+
+    /// The centre of mass now, by its last position and velocity; `None` when they are too old.
+    pub(super) fn extrapolate(&mut self, dt: f64) -> Option<ComState> {
+        let (com, age) = self.last_com.as_mut()?;
+        *age += dt;
+        com.position += com.velocity * dt;
+        (*age < EXTRAPOLATED_MAX).then_some(*com)
+    }
+
+    /// What must carry the robot now; `None` where anything may.
+    fn expected_support(&self) -> Option<ExpectedSupport> {
+        let gait = self.pattern.gait();
+        if !self.follows_walk() || matches!(gait.phase(), GaitPhase::Standing(_) | GaitPhase::Starting) {
+            None
+        } else if gait.in_double_support() || gait.is_changing_support() {
+            Some(ExpectedSupport::AnyFoot)
+        } else {
+            Some(ExpectedSupport::OneFoot(gait.half_step().support))
+        }
+    }
+}
