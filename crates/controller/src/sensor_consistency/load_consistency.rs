@@ -11,7 +11,7 @@ const UNLOADED: f64 = 0.07;
 /// Least share of the weight on a foot that does (-).
 const CARRYING: f64 = 0.3;
 /// Longest time for which the other foot may carry the robot (s): on uneven ground the weight changes late.
-const OTHER_FOOT_MAX: f64 = 0.025;
+const OTHER_FOOT_MAX: f64 = 0.01;
 
 /// Finds force sensors that are dead, saturated or exchanged. Only in a walk: a robot that stands may be lifted.
 #[derive(Clone, Copy, Debug, Default)]
@@ -75,7 +75,7 @@ mod tests {
     #[test]
     fn feet_that_are_exchanged_are_named() {
         let after = rejected_after([0.0, 1.0], Some(ExpectedSupport::OneFoot(Side::Right)));
-        assert!((24..=26).contains(&after.unwrap()), "after {after:?} ms");
+        assert!((9..=11).contains(&after.unwrap()), "after {after:?} ms");
         assert_eq!(rejected_after([0.0, 1.0], Some(ExpectedSupport::AnyFoot)), None);
     }
 }
