@@ -14,7 +14,7 @@ use interface::{
 use model::{ComState, JointVector, Mechanism, Motion, Side};
 use nalgebra::Vector2;
 use pattern::{FeasibilityCheck, PatternGenerator, Stance};
-use stabilizer::{BalanceState, ContactEstimate, DcmFeedback, LandingCompliance, ZmpEstimator};
+use stabilizer::{BalanceState, ComPrediction, ContactEstimate, DcmFeedback, LandingCompliance, ZmpEstimator};
 
 use crate::admission_control::AdmissionControl;
 use crate::admission_job::AdmissionJob;
@@ -29,6 +29,8 @@ use crate::report::{Tick, added_angles, to_physical};
 
 /// Shortest period that a tick plays (s): rates are differences over it.
 const PERIOD_MIN: f64 = 1e-6;
+/// Least time for which measurements show an error before a step answers it (s): a faulty sensor is noticed within it.
+const UNCORRECTABLE_MIN: f64 = 0.005;
 /// Longest period that a tick plays (s), shorter than any half-step: what a loop was late by beyond it is lost.
 const PERIOD_MAX: f64 = 0.1;
 
@@ -60,8 +62,9 @@ pub struct Controller {
     /// The joint by which the robot was found in another posture than the controller begins in, while it holds it.
     unexpected_posture: Option<Rejection>,
     gravity: GravityConsistency,
-    /// The last estimate of the centre of mass over this support foot, and its age (s).
-    last_com: Option<(ComState, f64)>,
+    com_prediction: ComPrediction,
+    /// For how long measurements have shown an error that the ankles cannot correct (s).
+    uncorrectable_for: f64,
     /// Time since the first tick began (s).
     time: f64,
     /// The latched fault as of the last tick.
@@ -134,7 +137,8 @@ impl Controller {
             measured_angles: None,
             unexpected_posture: None,
             gravity: GravityConsistency::default(),
-            last_com: None,
+            com_prediction: ComPrediction::default(),
+            uncorrectable_for: 0.0,
             time: 0.0,
             latched: None,
             rest,
@@ -163,8 +167,8 @@ impl Controller {
         self.check_gravity(com_measured.as_ref(), dt, &mut faults);
 
         // What does balance command? No new sample is no reason to take the error for none.
-        let com = com_measured.or_else(|| self.extrapolate(dt));
-        self.balance(com, dt);
+        let com = com_measured.or_else(|| self.com_prediction.predict(&self.reference.com, dt));
+        self.balance(com, com_measured.is_some(), dt);
 
         // What does the gait command?
         let support = self.pattern.gait().half_step().support;
@@ -239,8 +243,8 @@ impl Controller {
         }
     }
 
-    /// Updates feedback, landing compliance and step adjustment with the estimated centre of mass.
-    fn balance(&mut self, com: Option<ComState>, dt: f64) {
+    /// Updates feedback, landing compliance and step adjustment with the centre of mass, estimated or predicted.
+    fn balance(&mut self, com: Option<ComState>, is_measured: bool, dt: f64) {
         let follows_walk = self.follows_walk();
         if !follows_walk {
             self.feedback.release();
@@ -261,10 +265,12 @@ impl Controller {
 
         let gait = self.pattern.gait_mut();
         gait.set_tilt(if com.is_some() && !in_double_support { self.tilt } else { Vector2::zeros() });
-        if com.is_some()
-            && let Some(growth) = gait.growth_until_touchdown()
-        {
-            gait.adjust_step(self.feedback.uncorrectable_error(growth));
+        let Some(growth) = gait.growth_until_touchdown().filter(|_| com.is_some()) else { return };
+        let error = self.feedback.uncorrectable_error(growth);
+        let is_seen = is_measured && error != Vector2::zeros();
+        self.uncorrectable_for = if is_seen { self.uncorrectable_for + dt } else { 0.0 };
+        if error == Vector2::zeros() || self.uncorrectable_for > UNCORRECTABLE_MIN {
+            gait.adjust_step(error);
         }
     }
 
@@ -294,7 +300,7 @@ impl Controller {
             self.feedback.change_support(mirror, heading);
             self.landing.change_support(mirror);
             self.zmp_estimator.change_support(mirror);
-            self.last_com = None;
+            self.com_prediction = ComPrediction::default();
         }
         let motion = gait.motion();
         self.reference.update(&self.tree, gait.walk().mirror(), &motion, gait.contact());

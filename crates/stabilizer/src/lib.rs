@@ -3,7 +3,8 @@
 //! The data flow in this order:
 //!
 //! 1. [`SupportFrameMeasurement`]: a measurement, expressed in support coordinates.
-//! 2. [`ZmpEstimator`], [`estimate_com`]: zero-moment point (ZMP), contacts, and centre of mass.
+//! 2. [`ZmpEstimator`], [`estimate_com`]: zero-moment point (ZMP), contacts, and centre of mass; [`ComPrediction`]
+//!    bridges missing samples.
 //! 3. [`BalanceState`]: how the robot balances, as planned and as estimated.
 //! 4. [`DcmFeedback`]: their difference moves the ZMP by small angles of the ankles.
 //! 5. [`LandingCompliance`]: the legs yield to unexpected forces at touchdown.
@@ -13,6 +14,7 @@
 
 mod balance_state;
 mod com_estimator;
+mod com_prediction;
 mod dcm_feedback;
 mod landing_compliance;
 mod parameters;
@@ -22,6 +24,7 @@ mod zmp_estimator;
 
 pub use balance_state::BalanceState;
 pub use com_estimator::estimate_com;
+pub use com_prediction::ComPrediction;
 pub use dcm_feedback::{AnkleLean, DcmFeedback, FeedbackParameters};
 pub use landing_compliance::{LandingCompliance, LandingParameters};
 pub use parameters::Parameters;

@@ -3,15 +3,16 @@
 use interface::{Fault, Faults, Measurement};
 use model::ComState;
 use pattern::GaitPhase;
-use stabilizer::{BalanceState, SupportFrameMeasurement, estimate_com};
+use stabilizer::{BalanceState, ComPrediction, SupportFrameMeasurement, estimate_com};
 
 use super::Controller;
 use crate::sensor_consistency::{Expectation, ExpectedSupport};
 
 /// With the measured ZMP this far inside a sole (m), the whole sole is on the ground.
 const FLAT_MARGIN: f64 = 0.005;
-/// Longest time over which the last estimate of the centre of mass is extrapolated (s).
-const EXTRAPOLATED_MAX: f64 = 0.02;
+/// Time around a support change in which either foot may carry the robot (s): on uneven ground the weight changes feet
+/// up to 0.045 s late.
+const EITHER_FOOT: f64 = 0.05;
 
 impl Controller {
     /// Absorbs a measurement and returns the measured centre of mass; `None` without a valid measurement, and in the
@@ -51,7 +52,7 @@ impl Controller {
         if self.contact.zmp.is_none() {
             faults.insert(Fault::InTheAir);
             self.feedback.release();
-            self.last_com = None;
+            self.com_prediction = ComPrediction::default();
             return None;
         }
         // A sole that bears alone, and not on an edge, lies flat: it leans as the floor does.
@@ -60,7 +61,7 @@ impl Controller {
         }
         self.tilt = self.reference.tilt(&measured.up_in_trunk, gait.sensed_vertical());
         let com = estimate_com(&self.tree, &self.kinematics, &measured);
-        self.last_com = Some((com, 0.0));
+        self.com_prediction.absorb(&com, &self.reference.com, dt);
         Some(com)
     }
 
@@ -77,20 +78,12 @@ impl Controller {
         }
     }
 
-    /// The centre of mass now, by its last position and velocity; `None` when they are too old.
-    pub(super) fn extrapolate(&mut self, dt: f64) -> Option<ComState> {
-        let (com, age) = self.last_com.as_mut()?;
-        *age += dt;
-        com.position += com.velocity * dt;
-        (*age < EXTRAPOLATED_MAX).then_some(*com)
-    }
-
     /// What must carry the robot now; `None` where anything may.
     fn expected_support(&self) -> Option<ExpectedSupport> {
         let gait = self.pattern.gait();
         if !self.follows_walk() || matches!(gait.phase(), GaitPhase::Standing(_) | GaitPhase::Starting) {
             None
-        } else if gait.in_double_support() || gait.is_changing_support() {
+        } else if gait.in_double_support() || gait.time_off_support_change() < EITHER_FOOT {
             Some(ExpectedSupport::AnyFoot)
         } else {
             Some(ExpectedSupport::OneFoot(gait.half_step().support))
