@@ -58,6 +58,8 @@ const WALKING_FROM: f64 = 2.4;
 const STANDING_FROM: f64 = 4.5;
 /// Duration of the nominal half-step (s).
 const HALF_STEP: f64 = 0.6;
+/// How long a fall takes at most (s): what is said of a robot that trips is true.
+const FALLING: f64 = 1.5;
 /// A mass that bears the same push everywhere (N·s): what README promises, ahead, behind and aside.
 const PUSHES: [(Direction, f64); 4] =
     [(Direction::Forward, 15.0), (Direction::Back, 15.0), (Direction::ToSupport, 6.0), (Direction::ToSwing, 6.0)];
@@ -281,6 +283,7 @@ fn walk_clean(options: &Options, plant: &PlantParameters, seed: u64, is_streamed
     let mut source = streams::Source::new(seed);
     let mut clean = Clean { ticks: 0, alarms: 0, first_alarm: None, has_fallen: false };
     let (mut half_step, mut pushes) = (0, 0);
+    let mut alarms = Vec::new();
     while walking.time() < options.clean_seconds && !clean.has_fallen {
         let request: Option<GaitChange> = if is_streamed && !is_pushed { source.next(half_step) } else { None };
         let tick = walking.tick(request.as_ref().map(|request| (request, None)));
@@ -294,10 +297,15 @@ fn walk_clean(options: &Options, plant: &PlantParameters, seed: u64, is_streamed
         clean.has_fallen = walking.plant.truth().has_fallen();
         clean.ticks += 1;
         if !clean.has_fallen && is_alarm(tick.report.faults) {
-            clean.alarms += 1;
-            clean.first_alarm.get_or_insert(tick);
+            alarms.push((walking.time(), tick));
         }
     }
+    if clean.has_fallen {
+        let end = walking.time();
+        alarms.retain(|(time, _)| end - time > FALLING);
+    }
+    clean.alarms = alarms.len() as u64;
+    clean.first_alarm = alarms.first().map(|(_, tick)| *tick);
     clean
 }
 

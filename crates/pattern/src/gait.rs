@@ -57,14 +57,9 @@ pub trait Gait {
 
     /// Whether the weight moves from foot to foot just now, as planned.
     fn is_changing_support(&self) -> bool {
-        self.time_off_support_change() < SUPPORT_CHANGE
-    }
-
-    /// Time since the last support change or until the next one, whichever is shorter (s).
-    fn time_off_support_change(&self) -> f64 {
         let duration = self.walk().table().duration / self.speed().max(SPEED_MIN);
         let progress = self.half_step().progress;
-        progress.min(1.0 - progress) * duration
+        progress.min(1.0 - progress) * duration < SUPPORT_CHANGE
     }
 
     /// Which feet are on the ground as planned.

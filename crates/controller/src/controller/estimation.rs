@@ -10,9 +10,9 @@ use crate::sensor_consistency::{Expectation, ExpectedSupport};
 
 /// With the measured ZMP this far inside a sole (m), the whole sole is on the ground.
 const FLAT_MARGIN: f64 = 0.005;
-/// Time around a support change in which either foot may carry the robot (s): on uneven ground the weight changes feet
-/// up to 0.045 s late.
-const EITHER_FOOT: f64 = 0.05;
+/// Share of a half-step at both of its ends in which either foot may carry the robot: the swing sole is lower than a
+/// fifth of its clearance, and on uneven ground lands early or late.
+const EITHER_FOOT: f64 = 0.18;
 
 impl Controller {
     /// Absorbs a measurement and returns the measured centre of mass; `None` without a valid measurement, and in the
@@ -81,9 +81,10 @@ impl Controller {
     /// What must carry the robot now; `None` where anything may.
     fn expected_support(&self) -> Option<ExpectedSupport> {
         let gait = self.pattern.gait();
+        let progress = gait.half_step().progress;
         if !self.follows_walk() || matches!(gait.phase(), GaitPhase::Standing(_) | GaitPhase::Starting) {
             None
-        } else if gait.in_double_support() || gait.time_off_support_change() < EITHER_FOOT {
+        } else if gait.in_double_support() || progress.min(1.0 - progress) < EITHER_FOOT {
             Some(ExpectedSupport::AnyFoot)
         } else {
             Some(ExpectedSupport::OneFoot(gait.half_step().support))
