@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use model::{Joint, Motor};
+use model::{DcMotor, Joint};
 use nalgebra::Vector3;
 
 use crate::import::JointMap;
@@ -37,7 +37,7 @@ pub(super) fn write(biped: &StraightBiped, map: &JointMap, urdf_file: &str) -> S
         ("ankle_height_m", sole.ankle_height),
     ];
     table(&mut text, "sole", &keys.map(|(key, value)| (key, number(value, PER_UNIT))));
-    for (name, motor) in &map.motors {
+    for (name, motor) in map.motors.iter().filter_map(|(name, motor)| Some((name, motor.dc()?))) {
         table(&mut text, &format!("motor.{}", quoted(name)), &motor_keys(motor));
     }
     for joint in Joint::ALL {
@@ -73,7 +73,7 @@ pub(super) fn write(biped: &StraightBiped, map: &JointMap, urdf_file: &str) -> S
     text
 }
 
-fn motor_keys(motor: &Motor) -> Vec<(&'static str, String)> {
+fn motor_keys(motor: &DcMotor) -> Vec<(&'static str, String)> {
     vec![
         ("resistance_ohm", motor.resistance.to_string()),
         ("torque_constant_n_m_per_a", motor.torque_constant.to_string()),

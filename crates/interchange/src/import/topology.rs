@@ -165,7 +165,8 @@ fn hinge(
     let range = if reached.reversed ^ turned { [-range[1], -range[0]] } else { range };
 
     let motor = &map.motors[mapped.motor];
-    let usable = NO_LOAD_SHARE * motor.1.voltage_max / (motor.1.torque_constant * motor.1.gear_ratio);
+    let usable =
+        motor.1.dc().map_or(f64::INFINITY, |dc| NO_LOAD_SHARE * dc.voltage_max / (dc.torque_constant * dc.gear_ratio));
     let told = if urdf.limit.velocity > 0.0 { urdf.limit.velocity } else { f64::INFINITY };
     let rate_max = mapped.rate_max.unwrap_or_else(|| {
         if told > usable {
