@@ -24,7 +24,7 @@ use crate::joint_limiter::JointLimiter;
 use crate::measurement_validator::MeasurementValidator;
 use crate::operating_state::OperatingState;
 use crate::parameters::Parameters;
-use crate::pattern::Pattern;
+use crate::pattern::{Compensation, Pattern};
 use crate::report::{Tick, added_angles, to_physical};
 
 /// Shortest period that a tick plays (s): rates are differences over it.
@@ -83,6 +83,9 @@ impl Controller {
         start: Start,
     ) -> Result<Self, WalkError> {
         let walk = Walk::new(table, mechanism, &parameters.gait, start)?;
+        if parameters.compensation == Compensation::None {
+            Walk::check_joints(mechanism)?;
+        }
         let pattern = Pattern::new(mechanism, walk.clone(), parameters.compensation);
         let rest = Box::new(PatternGenerator::standing(mechanism, walk.clone()));
         Ok(Self::with_pattern(mechanism, parameters, &walk, pattern, rest, Intent::Walk))

@@ -67,7 +67,7 @@ impl SensorConsistency {
     ) -> Option<Rejection> {
         let last = self.last.replace(*measurement).unwrap_or(*measurement);
         // Each of them sees every sample.
-        let frozen = self.frozen.update(measurement, &last, &expected.setpoint.rates, dt);
+        let frozen = self.frozen.update(measurement, &last, &expected.setpoint.rates, self.weight, dt);
         let trunk = self.trunk.update(measurement, &last, vertical, self.parameters.orientation_error_max, dt);
         let joints = self.joints.update(measurement, &last, expected.setpoint, &self.parameters, dt);
         let shares = measurement.feet.map(|foot| foot.force.z / self.weight);

@@ -15,6 +15,12 @@ use model::{Joint, JointVector, Mechanism, Motion, Side};
 
 use crate::{Ramp, RampKind, RampState, WalkError};
 
+/// Hip pitch and ankle joints of each leg.
+const LEGS: [(Side, Joint, [Joint; 2]); 2] = [
+    (Side::Right, Joint::RightHipPitch, [Joint::RightAnklePitch, Joint::RightAnkleRoll]),
+    (Side::Left, Joint::LeftHipPitch, [Joint::LeftAnklePitch, Joint::LeftAnkleRoll]),
+];
+
 /// The commanded step extension and its offset in the present half-step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepExtension {
@@ -30,28 +36,34 @@ pub struct StepExtension {
 
 impl StepExtension {
     /// No extension: steps as long as the nominal's.
+    pub fn new(mechanism: &Mechanism, kind: RampKind) -> Self {
+        let mut forward = JointVector::ZERO;
+        let y = |joint: Joint| mechanism.links[joint].axis.y;
+        for (_, hip, [one, other]) in LEGS {
+            // Which of the two ankle joints pitches is data: the mechanism's axes decide, not the joint's name.
+            let ankle = if y(one).abs() >= y(other).abs() { one } else { other };
+            forward[hip] = -y(hip).signum();
+            forward[ankle] = y(ankle).signum();
+        }
+        Self { forward, kind, angle: 0.0, ramp: Ramp::hold(0.0) }
+    }
+
+    /// Checks that offsets of the pitch joints alone lengthen the step and keep the soles level, as in the paper.
     ///
     /// # Errors
     /// [`WalkError::HipPitchNotLateral`] and [`WalkError::NoAnklePitch`] when a leg has no such pair of joints about y.
-    pub fn new(mechanism: &Mechanism, kind: RampKind) -> Result<Self, WalkError> {
-        use Joint::*;
-        let mut forward = JointVector::ZERO;
-        for (side, hip, ankle) in [
-            (Side::Right, RightHipPitch, [RightAnklePitch, RightAnkleRoll]),
-            (Side::Left, LeftHipPitch, [LeftAnklePitch, LeftAnkleRoll]),
-        ] {
-            // Which of the two ankle joints pitches is data: the mechanism's axes decide, not the joint's name.
-            let pitch = |joint: Joint| {
-                let y = mechanism.links[joint].axis.y;
-                (y.abs() > 1.0 - 1e-9).then_some((joint, y.signum()))
-            };
-            let axis = mechanism.links[hip].axis.into_inner();
-            let (_, sign) = pitch(hip).ok_or(WalkError::HipPitchNotLateral { joint: hip, axis })?;
-            forward[hip] = -sign;
-            let (ankle, sign) = ankle.into_iter().find_map(pitch).ok_or(WalkError::NoAnklePitch { side, ankle })?;
-            forward[ankle] = sign;
+    pub(crate) fn check_joints(mechanism: &Mechanism) -> Result<(), WalkError> {
+        let axis = |joint: Joint| mechanism.links[joint].axis.into_inner();
+        let pitches = |joint: Joint| axis(joint).y.abs() > 1.0 - 1e-9;
+        for (side, hip, ankle) in LEGS {
+            if !pitches(hip) {
+                return Err(WalkError::HipPitchNotLateral { joint: hip, axis: axis(hip) });
+            }
+            if !ankle.into_iter().any(pitches) {
+                return Err(WalkError::NoAnklePitch { side, ankle });
+            }
         }
-        Ok(Self { forward, kind, angle: 0.0, ramp: Ramp::hold(0.0) })
+        Ok(())
     }
 
     /// `β` as commanded (rad).

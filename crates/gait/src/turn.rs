@@ -14,6 +14,9 @@ use model::{Joint, JointVector, Mechanism, Motion, Side};
 
 use crate::{Ramp, RampKind, RampState, WalkError};
 
+/// The joints that turn in the paper.
+const HIP_YAWS: [Joint; 2] = [Joint::RightHipYaw, Joint::LeftHipYaw];
+
 /// The part of a half-step in a turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TurnPhase {
@@ -42,19 +45,24 @@ pub struct Turn {
 
 impl Turn {
     /// No turn: walking straight on.
+    pub fn new(mechanism: &Mechanism, kind: RampKind) -> Self {
+        let mut apart = JointVector::ZERO;
+        for joint in HIP_YAWS {
+            apart[joint] = mechanism.links[joint].axis.z.signum();
+        }
+        Self { apart, kind, angle: 0.0, phase: TurnPhase::Straight, ramp: Ramp::hold(0.0) }
+    }
+
+    /// Checks that offsets of the hip yaws alone turn the walk, as in the paper.
     ///
     /// # Errors
     /// [`WalkError::HipYawNotVertical`] when joint 7 or 10 does not turn about z.
-    pub fn new(mechanism: &Mechanism, kind: RampKind) -> Result<Self, WalkError> {
-        let mut apart = JointVector::ZERO;
-        for joint in [Joint::RightHipYaw, Joint::LeftHipYaw] {
-            let axis = mechanism.links[joint].axis;
-            if axis.z.abs() < 1.0 - 1e-9 {
-                return Err(WalkError::HipYawNotVertical { joint, axis: axis.into_inner() });
-            }
-            apart[joint] = axis.z.signum();
+    pub(crate) fn check_joints(mechanism: &Mechanism) -> Result<(), WalkError> {
+        let axes = HIP_YAWS.map(|joint| (joint, mechanism.links[joint].axis.into_inner()));
+        match axes.into_iter().find(|(_, axis)| axis.z.abs() < 1.0 - 1e-9) {
+            Some((joint, axis)) => Err(WalkError::HipYawNotVertical { joint, axis }),
+            None => Ok(()),
         }
-        Ok(Self { apart, kind, angle: 0.0, phase: TurnPhase::Straight, ramp: Ramp::hold(0.0) })
     }
 
     /// `α` as commanded: change of heading per full step (rad), positive to the left.

@@ -61,14 +61,24 @@ impl Walk {
             mirror,
             limits: parameters.limits,
             half_step: HalfStep::first(start.support),
-            turn: Turn::new(mechanism, parameters.ramp)?,
-            extension: StepExtension::new(mechanism, parameters.ramp)?,
+            turn: Turn::new(mechanism, parameters.ramp),
+            extension: StepExtension::new(mechanism, parameters.ramp),
             speed: Speed::new(start.command.speed, parameters.ramp, parameters.speed_ramp.as_secs_f64()),
         };
         walk.turn.request(start.command.turn);
         walk.extension.request(start.command.extension);
         walk.begin_half_step();
         Ok(walk)
+    }
+
+    /// Checks that the motion of the joints, [`motion`](Self::motion), is that of a modified walk: turn and extension
+    /// are offsets of single joints only where these have the paper's axes.
+    ///
+    /// # Errors
+    /// [`WalkError::HipYawNotVertical`], [`WalkError::HipPitchNotLateral`], [`WalkError::NoAnklePitch`].
+    pub fn check_joints(mechanism: &Mechanism) -> Result<(), WalkError> {
+        Turn::check_joints(mechanism)?;
+        StepExtension::check_joints(mechanism)
     }
 
     /// Takes what is granted of a request and says what that is and when it takes effect, see [`Self::force`].

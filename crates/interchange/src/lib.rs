@@ -2,4 +2,5 @@
 
 pub mod import;
 pub mod mjcf;
+pub mod scaled_parameters;
 pub mod urdf;

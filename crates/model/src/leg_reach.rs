@@ -6,6 +6,9 @@ use nalgebra::{Vector2, Vector3};
 
 use crate::{Joint, Mechanism, Side};
 
+/// Length of the paper's robot from ankle over knee to hip (m).
+const PAPER_LEG: f64 = 0.434 + 0.422;
+
 /// Hips and ankles as points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LegReach {
@@ -49,5 +52,11 @@ impl LegReach {
     /// Distance from hip to ankle of the stretched leg (m).
     pub fn length(&self) -> f64 {
         self.shank + self.thigh
+    }
+
+    /// Length of the leg per that of the paper's robot, 0.856 m (-). A length that was found for that robot suits
+    /// another one when multiplied by it, a time when multiplied by its square root (Froude's law).
+    pub fn scale(&self) -> f64 {
+        self.length() / PAPER_LEG
     }
 }

@@ -26,8 +26,10 @@ use crate::error::NodeError;
 pub struct ReplayOutcome {
     /// How many setpoints were compared.
     pub setpoints: u64,
-    /// The first setpoint that differs, if one does; nothing is compared after it.
+    /// The first setpoint that differs, if one does.
     pub difference: Option<Difference>,
+    /// Largest difference of an angle in all setpoints (rad).
+    pub angle_difference_max: f64,
     /// Why the replay ended before the recording does, if it did: inputs of the next tick are missing.
     pub missing: Option<String>,
     /// Where the recording is truncated, if it is: what follows was not recorded, and cannot be compared.
@@ -95,10 +97,10 @@ pub fn replay(run: &Path) -> Result<ReplayOutcome, NodeError> {
                     }
                     let replayed = replayer.tick(&tick, &measurement, recorded.time_ns);
                     outcome.setpoints += 1;
-                    outcome.difference = Difference::between(&tick, stamped.time(), &recorded, &replayed);
-                    if outcome.difference.is_some() {
-                        return Ok(outcome);
-                    }
+                    let difference = || Difference::between(&tick, stamped.time(), &recorded, &replayed);
+                    outcome.difference = outcome.difference.or_else(difference);
+                    let apart = recorded.angles.iter().zip(&replayed.angles).map(|(one, other)| (one - other).abs());
+                    outcome.angle_difference_max = apart.fold(outcome.angle_difference_max, f64::max);
                 }
                 RunEvent::Reply(_) | RunEvent::Report(_) | RunEvent::Truth(_) => {}
             }
@@ -221,7 +223,8 @@ impl fmt::Display for ReplayOutcome {
                 write!(
                     out,
                     "differs in tick {tick} ({time_s:.3} s): {quantity} of joint {joint} ({name}) was {recorded:?}, is \
-                     {replayed:?}"
+                     {replayed:?}\nangles differ by at most {:.1e} rad in {} setpoints",
+                    self.angle_difference_max, self.setpoints
                 )?;
             }
             None if self.setpoints == 0 => write!(out, "nothing to compare: no setpoint was recorded")?,

@@ -41,8 +41,8 @@ impl SteadyHalfStep {
     /// The mechanism cannot turn or extend its steps.
     pub fn steady(robot: &Robot, command: &Command, reading: Reading) -> Result<[Self; 2], WalkError> {
         let Robot { mechanism, nominal } = robot;
-        let mut turn = Turn::new(mechanism, reading.turn)?;
-        let mut extension = StepExtension::new(mechanism, reading.extension)?;
+        let mut turn = Turn::new(mechanism, reading.turn);
+        let mut extension = StepExtension::new(mechanism, reading.extension);
         turn.request(command.turn);
         extension.request(command.extension);
 

@@ -1,13 +1,13 @@
 //! The foot trajectory: what the half-steps demand of the body at a knot, apart from the centre of mass.
 
-use dynamics::{Kinematics, UpperBody, atan2};
+use dynamics::{UpperBody, atan2};
 use model::JointVector;
 use nalgebra::{Vector2, Vector3};
 
-use crate::footprint::SolePose;
 use crate::footstep_plan::{FootstepEvent, FootstepPlan};
 use crate::hip_height::HipHeight;
 use crate::knot::KNOT;
+use crate::modified_half_step::ModifiedHalfStep;
 use crate::pattern_model::PatternModel;
 use crate::step_adjustment::StepAdjustment;
 use crate::swing_path::SwingPath;
@@ -111,21 +111,17 @@ impl FootTrajectory {
     ///
     /// * `com` – projection of the centre of mass in the walk frame (m)
     pub(crate) fn task(&self, model: &PatternModel, com: Vector2<f64>) -> WholeBodyTask {
-        let pelvis = model.tree.pelvis();
         let walk = &self.footsteps.walk;
         let progress = walk.half_step().progress;
         let nominal = walk.table().angles_at(progress);
-        let modified = nominal + walk.offsets_at(progress);
-        let modified = Kinematics::fixed_base_up_to_left_foot(&model.tree, &modified);
-        let pelvis_ahead = modified.rotation[pelvis].column(0).into_owned();
-        let mut swing_sole = self.swing.at(progress, &SolePose::of_swing_foot(&model.mechanism, &modified));
+        let modified = ModifiedHalfStep::new(model, walk, progress);
+        let mut swing_sole = self.swing.at(progress, &modified.swing_sole);
         let [offset, ..] = self.adjustment.at(progress);
         swing_sole.position += Vector3::new(offset.x, offset.y, 0.0);
         WholeBodyTask {
             com: self.footsteps.feet.footprint.point_to_support(com),
-            hip_height: Kinematics::fixed_base_up_to_pelvis(&model.tree, &nominal).origin[pelvis].z
-                - self.hips.lowered(progress),
-            pelvis_yaw: atan2(pelvis_ahead.y, pelvis_ahead.x),
+            hip_height: modified.nominal_pelvis_height - self.hips.lowered(progress),
+            pelvis_yaw: atan2(modified.pelvis.m21, modified.pelvis.m11),
             swing_sole,
             upper: nominal,
             carried: UpperBody::new(&model.tree, &nominal),

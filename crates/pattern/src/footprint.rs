@@ -1,7 +1,7 @@
 //! Poses of the feet: soles in support coordinates, footprints in the walk frame.
 
-use dynamics::{Kinematics, atan2, sin_cos};
-use model::{Mechanism, Side};
+use dynamics::{atan2, sin_cos};
+use model::Side;
 use nalgebra::{Isometry2, Isometry3, Quaternion, Rotation2, Translation3, UnitQuaternion, Vector2, Vector3};
 
 /// The pose of a level sole, in support coordinates.
@@ -23,11 +23,9 @@ pub(crate) struct Footprint {
 }
 
 impl SolePose {
-    /// The swing sole in a posture, without its tilt.
-    pub(crate) fn of_swing_foot(mechanism: &Mechanism, kinematics: &Kinematics) -> Self {
-        let sole = kinematics.sole_to_world(mechanism, Side::Left);
-        let ahead = sole.rotation * Vector3::x();
-        Self { position: sole.translation.vector, yaw: atan2(ahead.y, ahead.x) }
+    /// A sole at a place (m), heading where its x axis points.
+    pub(crate) fn new(position: Vector3<f64>, ahead: &Vector3<f64>) -> Self {
+        Self { position, yaw: atan2(ahead.y, ahead.x) }
     }
 
     /// The former support sole in the support coordinates of this one, once this one has landed and supports.

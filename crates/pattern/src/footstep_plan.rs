@@ -1,12 +1,12 @@
 //! The footstep plan: which half-steps come and where they put the feet.
 
-use dynamics::Kinematics;
 use gait::{RangeCheck, Walk};
 use interface::{Command, GaitChange, Verdict};
 use nalgebra::{Vector2, Vector3};
 
 use crate::footprint::{Footprint, SolePose, rotation_about_z};
 use crate::gait_state::{GaitState, Goal, Stance};
+use crate::modified_half_step::ModifiedHalfStep;
 use crate::pattern_model::PatternModel;
 
 /// The commanded walk at a knot, with its footsteps. A copy advanced knot by knot gives the footsteps that come.
@@ -47,8 +47,7 @@ pub(crate) struct Feet {
 impl FootstepPlan {
     /// A walk at the very beginning of its first half-step.
     pub(crate) fn walking(model: &PatternModel, walk: Walk) -> Self {
-        let kinematics = Kinematics::fixed_base(&model.tree, &walk.motion().angles);
-        let lift_off = SolePose::of_swing_foot(&model.mechanism, &kinematics);
+        let lift_off = ModifiedHalfStep::new(model, &walk, walk.half_step().progress).swing_sole;
         let footprint = Footprint::first(walk.half_step().support);
         let command = walk.command();
         let feet = Feet { footprint, lift_off, landing: lift_off };
@@ -153,9 +152,7 @@ impl FootstepPlan {
 
     /// The swing sole of the modified half-step at a progress.
     pub(crate) fn swing_sole(&self, model: &PatternModel, progress: f64) -> SolePose {
-        let angles = self.walk.angles_at(progress);
-        let kinematics = Kinematics::fixed_base_up_to_left_foot(&model.tree, &angles);
-        SolePose::of_swing_foot(&model.mechanism, &kinematics)
+        ModifiedHalfStep::new(model, &self.walk, progress).swing_sole
     }
 }
 

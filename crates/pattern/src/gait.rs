@@ -8,8 +8,12 @@ use nalgebra::Vector2;
 
 use crate::{GaitPhase, Stance};
 
-/// Time before and after a support change in which the weight may move from foot to foot (s).
-const SUPPORT_CHANGE: f64 = 0.03;
+/// Progress before and after a support change in which the weight may move from foot to foot, at nominal speed: 0.03 s
+/// of the paper's robot.
+const SUPPORT_CHANGE: f64 = 0.05;
+/// Progress before and after a support change in which the planned ZMP may be outside the support sole, so that the
+/// other foot carries a share.
+const OUTSIDE_SOLE: f64 = 0.1;
 /// Least speed factor by which [`SUPPORT_CHANGE`] is measured.
 const SPEED_MIN: f64 = 0.1;
 
@@ -57,16 +61,16 @@ pub trait Gait {
 
     /// Whether the weight moves from foot to foot just now, as planned.
     fn is_changing_support(&self) -> bool {
-        let duration = self.walk().table().duration / self.speed().max(SPEED_MIN);
         let progress = self.half_step().progress;
-        progress.min(1.0 - progress) * duration < SUPPORT_CHANGE
+        progress.min(1.0 - progress) < SUPPORT_CHANGE * self.speed().max(SPEED_MIN)
     }
 
     /// Which feet are on the ground as planned.
     fn contact(&self) -> PlannedContact {
+        let progress = self.half_step().progress;
         if self.in_double_support() {
             PlannedContact::BothFeet
-        } else if self.is_changing_support() {
+        } else if progress.min(1.0 - progress) < OUTSIDE_SOLE {
             PlannedContact::SupportChange
         } else {
             PlannedContact::SupportFoot

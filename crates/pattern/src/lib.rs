@@ -37,6 +37,7 @@ mod incremental_replan;
 mod knot;
 mod limit;
 mod lipm_residual;
+mod modified_half_step;
 mod pattern_generator;
 mod pattern_model;
 mod plan;

@@ -14,7 +14,7 @@ use crate::proportions::PatternProportions;
 pub(crate) const KNOTS_PREVIEWED: usize = 180;
 /// Knots over which the dynamics filter looks ahead: 1 s, after which e^(−3) is left of an influence.
 pub(crate) const KNOTS_FILTERED: usize = 100;
-/// Cost of a jerk against a ZMP error (m²/(m/s³)²); smaller tracks closer and moves the body more suddenly.
+/// Cost of a jerk against a ZMP error for the paper's robot (m²/(m/s³)²); smaller tracks closer and moves the body more suddenly.
 const JERK_WEIGHT: f64 = 1e-8;
 
 /// What does not change while the robot walks.
@@ -47,14 +47,17 @@ impl PatternModel {
     pub(crate) fn new(mechanism: &Mechanism, mirror: &Mirror, table: &NominalTable) -> Self {
         let tree = Tree::new(mechanism);
         let lipm_residual = LipmResidual::new(&tree, table);
-        let controller = |knots| PreviewController::new(lipm_residual.height_over_gravity, KNOT, knots, JERK_WEIGHT);
+        let reach = LegReach::of(mechanism);
+        // A jerk is a length per cubed time, and times grow as the root of lengths.
+        let weight = JERK_WEIGHT * reach.scale().powi(3);
+        let controller = |knots| PreviewController::new(lipm_residual.height_over_gravity, KNOT, knots, weight);
         Self {
             com_controller: controller(KNOTS_PREVIEWED),
             correction_controller: controller(KNOTS_FILTERED),
             mechanism: mechanism.clone(),
             mirror: *mirror,
             legs: LegSolver::new(mechanism),
-            reach: LegReach::of(mechanism),
+            reach,
             proportions: PatternProportions::of(mechanism),
             com_per_pelvis: com_per_pelvis(mechanism, &tree, table),
             tree,

@@ -1,7 +1,7 @@
 //! Lengths and times that suit the size of the robot, all in one place.
 //!
 //! Those of the legs and soles follow from the mechanism. The others were found for the paper's robot, with legs of
-//! 0.86 m from hip to ankle and hips 0.19 m apart; a robot of another size needs others.
+//! 0.86 m from hip to ankle and hips 0.19 m apart; for another robot they are scaled by its legs.
 
 use model::{LegReach, Mechanism};
 use nalgebra::Vector2;
@@ -65,20 +65,22 @@ const SLOPE_TIME_CONSTANT: f64 = 0.25;
 impl PatternProportions {
     /// The proportions of a robot.
     pub(crate) fn of(mechanism: &Mechanism) -> Self {
-        let leg = LegReach::of(mechanism).length();
+        let reach = LegReach::of(mechanism);
+        let (leg, scale) = (reach.length(), reach.scale());
+        let slower = scale.sqrt();
         Self {
             planned_leg_length_max: PLANNED_LEG_SHARE_MAX * leg,
             leg_length_max: LEG_SHARE_MAX * leg,
-            leg_limit_rounding: LEG_LIMIT_ROUNDING,
-            hip_offset_max: HIP_OFFSET_MAX,
-            step_adjustment_max: STEP_ADJUSTMENT_MAX,
-            step_adjustment_change_min: STEP_ADJUSTMENT_CHANGE_MIN,
-            sole_spacing_min: 2.0 * mechanism.sole.half_width + SOLE_GAP_MIN,
-            swing_height_min: SWING_HEIGHT_MIN,
-            swing_clearance_max: SWING_CLEARANCE_MAX,
-            swing_clearance_time_constant: SWING_CLEARANCE_TIME_CONSTANT,
+            leg_limit_rounding: LEG_LIMIT_ROUNDING * scale,
+            hip_offset_max: HIP_OFFSET_MAX * scale,
+            step_adjustment_max: STEP_ADJUSTMENT_MAX * scale,
+            step_adjustment_change_min: STEP_ADJUSTMENT_CHANGE_MIN * scale,
+            sole_spacing_min: 2.0 * mechanism.sole.half_width + SOLE_GAP_MIN * scale,
+            swing_height_min: SWING_HEIGHT_MIN * scale,
+            swing_clearance_max: SWING_CLEARANCE_MAX * scale,
+            swing_clearance_time_constant: SWING_CLEARANCE_TIME_CONSTANT * slower,
             sensed_vertical_time_constant: SENSED_VERTICAL_TIME_CONSTANT,
-            slope_time_constant: SLOPE_TIME_CONSTANT,
+            slope_time_constant: SLOPE_TIME_CONSTANT * slower,
         }
     }
 

@@ -1,9 +1,9 @@
 //! Lengths and forces that suit the size of the robot, all in one place.
 //!
 //! Those of the soles and the weight follow from the mechanism. The others were found for the paper's robot, with legs
-//! of 0.86 m from hip to ankle and soles of 0.28 m × 0.08 m; a robot of another size needs others.
+//! of 0.86 m from hip to ankle and soles of 0.28 m × 0.08 m; for another robot they are scaled by its legs.
 
-use model::{GRAVITY, Mechanism};
+use model::{GRAVITY, LegReach, Mechanism};
 use nalgebra::Vector2;
 
 /// Lengths and forces that suit the size of the robot.
@@ -48,16 +48,17 @@ impl StabilizerProportions {
     /// The proportions of a robot.
     pub(crate) fn of(mechanism: &Mechanism) -> Self {
         let sole = &mechanism.sole;
+        let scale = LegReach::of(mechanism).scale();
         Self {
             weight: mechanism.mass() * GRAVITY,
             sole_half_size: Vector2::new((sole.ahead + sole.behind) / 2.0, sole.half_width),
             sole_centre: Vector2::new((sole.ahead - sole.behind) / 2.0, 0.0),
-            double_support_zmp_shift_max: DOUBLE_SUPPORT_ZMP_SHIFT_MAX,
-            dcm_error_left_to_next_ankle: DCM_ERROR_LEFT_TO_NEXT_ANKLE,
-            dcm_error_large: DCM_ERROR_LARGE,
-            dcm_error_max: DCM_ERROR_MAX,
-            foot_damping_zmp_shift_max: FOOT_DAMPING_ZMP_SHIFT_MAX,
-            landing_lift_max: LANDING_LIFT_MAX,
+            double_support_zmp_shift_max: DOUBLE_SUPPORT_ZMP_SHIFT_MAX * scale,
+            dcm_error_left_to_next_ankle: DCM_ERROR_LEFT_TO_NEXT_ANKLE * scale,
+            dcm_error_large: DCM_ERROR_LARGE * scale,
+            dcm_error_max: DCM_ERROR_MAX * scale,
+            foot_damping_zmp_shift_max: FOOT_DAMPING_ZMP_SHIFT_MAX * scale,
+            landing_lift_max: LANDING_LIFT_MAX * scale,
         }
     }
 }

@@ -4,9 +4,7 @@ use model::{Joint, LegReach, Mechanism};
 
 use crate::SynthesisError;
 
-/// Length from hip to ankle of the robot for which the defaults were chosen (m).
-const DEFAULT_LEG: f64 = 0.856;
-/// Height of its ankle above the sole (m).
+/// Height of the ankle above the sole of the robot for which the defaults were chosen (m).
 const DEFAULT_ANKLE: f64 = 0.07;
 /// Shortest half-step (s).
 const TIME_MIN: f64 = 0.05;
@@ -93,7 +91,7 @@ impl SynthesisParameters {
     /// law).
     pub fn for_robot(mechanism: &Mechanism) -> Self {
         let default = Self::default();
-        let scale = LegReach::of(mechanism).length() / DEFAULT_LEG;
+        let scale = LegReach::of(mechanism).scale();
         // What a person would type.
         let rounded = |value: f64| (value * 1e4).round() / 1e4;
         Self {

@@ -9,8 +9,8 @@ const FROZEN_MAX: f64 = 0.02;
 const NOISY_AFTER: u32 = 100;
 /// Commanded rate above which a joint moves (rad/s).
 const MOVING: f64 = 0.2;
-/// Force above which a foot is loaded, so that its force changes (N).
-const LOADED: f64 = 50.0;
+/// Share of the weight above which a foot is loaded, so that its force changes (-).
+const LOADED: f64 = 0.07;
 
 /// Finds values that have stopped changing. At rest nothing is suspected: nothing is lost by it.
 ///
@@ -42,11 +42,13 @@ impl FrozenValues {
     ///
     /// * `last` – the sample before
     /// * `commanded` – joint rates (rad/s)
+    /// * `weight` – of the robot (N)
     pub(super) fn update(
         &mut self,
         sample: &Measurement,
         last: &Measurement,
         commanded: &JointVector,
+        weight: f64,
         dt: f64,
     ) -> Option<Rejection> {
         let moves = |joint: Joint| commanded[joint].abs() > MOVING;
@@ -65,7 +67,7 @@ impl FrozenValues {
         }
         for side in Side::BOTH {
             let (foot, before) = (&sample.feet[side.index()], &last.feet[side.index()]);
-            let is_loaded = foot.force.z.abs() > LOADED;
+            let is_loaded = foot.force.z.abs() > LOADED * weight;
             suspect(self.feet[side.index()].is_frozen(foot == before, is_moving && is_loaded, dt), Sensor::Foot(side));
         }
         let is_same = sample.orientation == last.orientation;

@@ -45,6 +45,9 @@ impl Motor {
     /// Reads all tables `[motor.NAME]` of a file, noting what is wrong: name and motor of each. Joints of one type
     /// share a motor.
     pub fn read_all<'d>(root: &Table<'d>) -> Vec<(&'d str, Self)> {
+        if !root.has("motor") {
+            return Vec::new();
+        }
         root.named_tables("motor").iter().map(|(name, table)| (*name, Self::Dc(DcMotor::read(table)))).collect()
     }
 }

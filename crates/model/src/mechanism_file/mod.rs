@@ -82,6 +82,8 @@ fn parent(joint: Joint, table: &Table) -> Option<Joint> {
                 format!("must be {}: the legs are one chain from foot to foot", others.join(" or ")),
             )
         }
+        // A waist may roll first.
+        None if joint == Joint::WaistPitch && parent == Some(Joint::WaistRoll) => (true, String::new()),
         None => (
             parent.is_some_and(|parent| parent < joint),
             format!("must name a joint that comes before this one (numbers 1 to {})", joint.index()),

@@ -6,13 +6,13 @@ use nalgebra::{Point3, Vector2};
 
 use super::{PlantRow, RunLog};
 
-/// Least load of a foot that counts as on the ground (N): with less the zero-moment point is undefined.
-const LOAD_MIN: f64 = 50.0;
+/// Least share of the load on both feet with which a foot counts as on the ground (-).
+const LOAD_SHARE_MIN: f64 = 0.07;
 
 impl PlantRow {
     /// Whether the foot on `side` is on the ground.
     pub fn bears(&self, side: Side) -> bool {
-        self.loads[side.index()] > LOAD_MIN
+        self.loads[side.index()] > LOAD_SHARE_MIN * (self.loads[0] + self.loads[1])
     }
 
     /// Convex hull of the soles on the ground, in world coordinates; a sole that tips counts as a whole.
@@ -77,7 +77,9 @@ mod tests {
         row.loads = [300.0, 400.0];
         // Between the feet, 9.5 cm from either ankle.
         assert!(row.support_polygon(&mechanism, &tree).margin(Vector2::new(0.0, 0.095)) > 0.05);
-        row.loads = [49.0, 0.0];
+        row.loads = [40.0, 660.0];
+        assert!(row.support_polygon(&mechanism, &tree).margin(Vector2::zeros()) < 0.0);
+        row.loads = [0.0, 0.0];
         assert_eq!(row.support_polygon(&mechanism, &tree).margin(Vector2::zeros()), f64::NEG_INFINITY);
     }
 }

@@ -1,0 +1,183 @@
+//! The modified half-step: where turn and step extension put pelvis and swing sole.
+//!
+//! The paper adds offsets to hip and ankle joints (eqs. 1 and 2). What they do to its robot holds for any leg, seen as
+//! a line from hip to ankle:
+//!
+//! * A **turn** rotates each leg about itself as seen from ahead: the pelvis about the support leg, the swing foot about
+//!   the swing leg.
+//! * An **extension** swings each leg about its ankle (support) or its hip (swing), in the plane of the leg; pelvis and
+//!   foot keep their orientation.
+//!
+//! The legs follow by inverse kinematics. For the paper's robot that gives the paper's offsets, to rounding.
+
+use dynamics::{Kinematics, sin_cos};
+use gait::Walk;
+use model::Side;
+use nalgebra::{Matrix3, Vector3};
+
+use crate::footprint::SolePose;
+use crate::pattern_model::PatternModel;
+
+/// Pelvis and swing sole of the modified half-step, in support coordinates.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ModifiedHalfStep {
+    /// Maps pelvis to support coordinates.
+    pub pelvis: Matrix3<f64>,
+    /// Height of the pelvis link's origin in the nominal half-step (m).
+    pub nominal_pelvis_height: f64,
+    /// The swing sole.
+    pub swing_sole: SolePose,
+}
+
+/// A link: rotation to support coordinates, and origin (m).
+#[derive(Clone, Copy, Debug)]
+struct Placed {
+    rotation: Matrix3<f64>,
+    origin: Vector3<f64>,
+}
+
+/// Axes of a leg, seen from ahead as a line.
+#[derive(Clone, Copy, Debug)]
+struct LegAxes {
+    /// Along the line, upward.
+    along: Vector3<f64>,
+    /// Across it, to the left.
+    across: Vector3<f64>,
+}
+
+impl ModifiedHalfStep {
+    /// The half-step of a walk at a progress.
+    pub(crate) fn new(model: &PatternModel, walk: &Walk, progress: f64) -> Self {
+        let turn = walk.turn().per_hip(progress).value;
+        let reach = walk.extension().per_hip(progress).value;
+        Self::of_nominal(model, &Self::nominal(model, walk, progress), turn, reach)
+    }
+
+    fn nominal(model: &PatternModel, walk: &Walk, progress: f64) -> [Placed; 2] {
+        let kinematics = Kinematics::fixed_base_up_to_left_foot(&model.tree, &walk.table().angles_at(progress));
+        [model.tree.pelvis(), model.tree.foot(Side::Left)]
+            .map(|link| Placed { rotation: kinematics.rotation[link], origin: kinematics.origin[link] })
+    }
+
+    /// * `nominal` – pelvis and swing foot
+    /// * `turn` – offset of either leg about itself (rad)
+    /// * `reach` – by which either leg swings ahead (rad)
+    fn of_nominal(model: &PatternModel, [pelvis, foot]: &[Placed; 2], turn: f64, reach: f64) -> Self {
+        let mechanism = &model.mechanism;
+        let [support_hip, swing_hip] = model.reach.hips_in_pelvis;
+        let [support_ankle, swing_ankle] = model.reach.ankles_in_foot;
+
+        // The support leg, from the ground up.
+        let hip = pelvis.at(&support_hip);
+        let up = hip - support_ankle;
+        let axes = LegAxes::of(&up);
+        let hip = support_ankle + rotation(&axes.across, reach) * up;
+        let rotated = rotation(&axes.along, turn) * pelvis.rotation;
+        let moved = Placed { rotation: rotated, origin: hip - rotated * support_hip };
+
+        // The swing leg, from the pelvis down.
+        let to_pelvis = pelvis.rotation.transpose();
+        let down = to_pelvis * (foot.at(&swing_ankle) - pelvis.origin) - swing_hip;
+        let axes = LegAxes::of(&-down);
+        let turned = rotation(&axes.along, turn);
+        let ankle = moved.at(&(swing_hip + turned * (rotation(&axes.across, -reach) * down)));
+        let sole = moved.rotation * turned * to_pelvis * foot.rotation;
+        let origin = ankle + sole * (mechanism.sole_in_foot(Side::Left) - swing_ankle);
+
+        Self {
+            pelvis: moved.rotation,
+            nominal_pelvis_height: pelvis.origin.z,
+            swing_sole: SolePose::new(origin, &sole.column(0).into_owned()),
+        }
+    }
+}
+
+impl Placed {
+    /// A point of the link, in support coordinates (m).
+    fn at(&self, in_link: &Vector3<f64>) -> Vector3<f64> {
+        self.origin + self.rotation * in_link
+    }
+}
+
+impl LegAxes {
+    /// * `up` – from ankle to hip (m)
+    fn of(up: &Vector3<f64>) -> Self {
+        let along = Vector3::new(0.0, up.y, up.z).try_normalize(f64::EPSILON).unwrap_or_else(Vector3::z);
+        Self { along, across: Vector3::new(0.0, along.z, -along.y) }
+    }
+}
+
+/// The rotation by an angle (rad) about a unit vector. It calls no mathematical library of the system, which would
+/// round differently elsewhere.
+fn rotation(axis: &Vector3<f64>, angle: f64) -> Matrix3<f64> {
+    let (sine, cosine) = sin_cos(angle);
+    Matrix3::from_diagonal_element(cosine) + axis.cross_matrix() * sine + axis * axis.transpose() * (1.0 - cosine)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+    use std::time::Duration;
+
+    use config::Config;
+    use gait::{GaitParameters, Limits, NominalTable, RampKind, Start};
+    use interface::Command;
+    use model::Mechanism;
+    use nalgebra::{Isometry3, Translation3};
+
+    use super::*;
+
+    fn walk(mechanism: &Mechanism, command: Command) -> Walk {
+        let table = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/nominal_half_step.csv");
+        let table = NominalTable::read_csv(table.as_ref()).unwrap();
+        let limits = Limits { turn_max: 0.6, speed_min: 0.5, speed_max: 1.5, extension_min: -0.2, extension_max: 0.2 };
+        let gait = GaitParameters { ramp: RampKind::Quintic, speed_ramp: Duration::from_millis(600), limits };
+        Walk::new(Arc::new(table), mechanism, &gait, Start { command, ..Start::default() }).unwrap()
+    }
+
+    /// The oracle: the paper's offsets of the joints, by forward kinematics; and inverse kinematics gives them back.
+    /// The nominal is rounded to 1e-11 rad, so that its pelvis is not quite level.
+    #[test]
+    fn the_papers_robot_turns_and_reaches_by_the_papers_joint_offsets() {
+        let mechanism = Mechanism::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism.toml")).unwrap();
+        for (turn, extension) in [(0.3, 0.0), (0.0, 0.15), (0.5, -0.1), (0.4, 0.2), (-0.3, 0.1)] {
+            let mut walk = walk(&mechanism, Command { turn, speed: 1.0, extension });
+            let model = PatternModel::new(&mechanism, walk.mirror(), walk.table());
+            for _ in 0..4 {
+                for progress in [0.0, 0.2, 0.5, 0.77, 1.0] {
+                    let angles = walk.angles_at(progress);
+                    let kinematics = Kinematics::fixed_base_up_to_left_foot(&model.tree, &angles);
+                    let found = ModifiedHalfStep::new(&model, &walk, progress);
+                    let sole = kinematics.sole_to_world(&mechanism, Side::Left);
+                    let expected = SolePose::new(sole.translation.vector, &(sole.rotation * Vector3::x()));
+                    let pelvis = kinematics.link_to_world(mechanism.pelvis());
+                    let at = format!("{turn} {extension} at {progress}");
+                    assert!((found.swing_sole.position - expected.position).norm() < 1e-11, "{at}");
+                    assert!((found.swing_sole.yaw - expected.yaw).abs() < 1e-11, "{at}");
+                    assert!((found.pelvis - kinematics.rotation[mechanism.pelvis()]).norm() < 1e-11, "{at}");
+
+                    let foot = kinematics.link_to_world(mechanism.foot(Side::Left));
+                    let mut solved = walk.table().angles_at(progress);
+                    model.legs.solve(&model.tree, Side::Right, &pelvis, &Isometry3::identity(), &mut solved).unwrap();
+                    model.legs.solve(&model.tree, Side::Left, &pelvis, &foot, &mut solved).unwrap();
+                    assert!((solved - angles).max_abs() < 1e-9, "{at}: {}", (solved - angles).max_abs());
+                }
+                walk.advance(walk.table().duration);
+            }
+        }
+    }
+
+    #[test]
+    fn without_turn_and_extension_the_half_step_is_the_nominal() {
+        let mechanism = Mechanism::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism.toml")).unwrap();
+        let walk = walk(&mechanism, Command::NOMINAL);
+        let model = PatternModel::new(&mechanism, walk.mirror(), walk.table());
+        for progress in [0.0, 0.3, 0.9] {
+            let kinematics = Kinematics::fixed_base_up_to_left_foot(&model.tree, &walk.table().angles_at(progress));
+            let sole = kinematics.link_to_world(mechanism.foot(Side::Left))
+                * Translation3::from(mechanism.sole_in_foot(Side::Left));
+            let found = ModifiedHalfStep::new(&model, &walk, progress);
+            assert!((found.swing_sole.position - sole.translation.vector).norm() < 1e-14);
+        }
+    }
+}
