@@ -140,7 +140,10 @@ fn rate(
     match told {
         Some(told) if told > RATE_MAX => {
             let words = format!("rate limited to {:.0} °/s", RATE_MAX.to_degrees());
-            notes.add(format!("{words} (the URDF tells {told} rad/s, which is no limit worth the name)"), &joint.name);
+            notes.add(
+                format!("{words} (the URDF tells {told} rad/s, which is no limit worth the name: or is it in °/s?)"),
+                &joint.name,
+            );
             RATE_MAX
         }
         Some(told) => told,

@@ -155,8 +155,13 @@ fn votes(
 fn named_left(name: &str) -> f64 {
     let lower = name.to_lowercase();
     let words: Vec<&str> = lower.split(|letter: char| !letter.is_alphabetic()).collect();
-    let says = |long: &str, short: &str| lower.contains(long) || words.contains(&short);
-    match (says("left", "l"), says("right", "r")) {
+    // LHipYaw
+    let begins = |capital: char| {
+        let mut letters = name.chars();
+        letters.next() == Some(capital) && letters.next().is_some_and(char::is_uppercase)
+    };
+    let says = |long: &str, short: &str, capital| lower.contains(long) || words.contains(&short) || begins(capital);
+    match (says("left", "l", 'L'), says("right", "r", 'R')) {
         (true, false) => 1.0,
         (false, true) => -1.0,
         _ => 0.0,
@@ -168,4 +173,26 @@ fn direction(direction: Vector3<f64>) -> String {
     let named = [("+x", Vector3::x()), ("+y", Vector3::y()), ("-x", -Vector3::x()), ("-y", -Vector3::y())];
     let named = named.into_iter().find(|(_, axis)| axis.angle(&direction) < 1e-6);
     named.map_or_else(|| format!("[{:.4}, {:.4}, 0]", direction.x, direction.y), |(name, _)| name.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_say_left_or_right_or_nothing() {
+        for (name, left) in [
+            ("left_knee", 1.0),
+            ("L_HIP_P", 1.0),
+            ("J_hipl_l_roll", 1.0),
+            ("LHipYawPitch", 1.0),
+            ("leg_right_1_joint", -1.0),
+            ("R_HIP_R", -1.0),
+            ("L_HIP_R", 0.0),
+            ("a12", 0.0),
+            ("Linkes Knie", 0.0),
+        ] {
+            assert_eq!(named_left(name), left, "{name}");
+        }
+    }
 }

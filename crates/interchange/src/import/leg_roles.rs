@@ -30,23 +30,25 @@ pub(super) fn find(
         let joints = legs.joints[leg];
         let axes = joints.map(|joint| poses.joints[joint].1);
         let names = joints.map(|joint| robot.joints[joint].name.as_str());
-        let told = told_roles(map, side, &joints);
-        let roles = of_leg(&axes, &told);
-        match roles {
-            Ok(roles) => found.push(roles),
-            Err(what) => errors.note(format!("{} leg, from the pelvis down {}: {what}", side.name(), names.join(", "))),
-        }
+        // What the map says is tried first; if it cannot be, it is told what there is instead.
+        let roles = of_leg(&axes, &told_roles(map, side, &joints)).or_else(|_| of_leg(&axes, &[None; 6]));
+        let roles = match roles {
+            Ok(roles) => roles,
+            Err(what) => {
+                errors.note(format!("{} leg, from the pelvis down {}: {what}", side.name(), names.join(", ")));
+                continue;
+            }
+        };
         for (role, joint) in leg_joints(map, side) {
-            let place = joints.iter().position(|other| *other == joint);
-            let is = place.and_then(|place| Some(found.last()?[place]));
-            let is_right = is == Some(role);
-            if !is_right && found.len() == usize::from(side == Side::Left) + 1 {
+            let is = joints.iter().position(|other| *other == joint).map(|place| roles[place]);
+            if is != Some(role) {
                 let is = is.map_or("not in that leg".to_string(), |is| format!("the {}_{}", side.name(), is.name()));
                 let name = &robot.joints[joint].name;
-                let must = "a knee stands between three joints of the hip and two of the ankle";
-                errors.note(format!("joint {name} as {}: it is {is}; {must}", Role::Leg(side, role).name()));
+                let must = "by its axis and its place between pelvis and foot; map it so, or leave it out of the map";
+                errors.note(format!("joint {name} as {}: it is {is} {must}", Role::Leg(side, role).name()));
             }
         }
+        found.push(roles);
     }
     let &[right, left] = found.as_slice() else { return None };
     if right != left {

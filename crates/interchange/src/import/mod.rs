@@ -122,7 +122,7 @@ fn import_robot(robot: &Robot, map: &ImportMap, file: &str, errors: &mut FileErr
     let scale = Scale { leg: parts.leg_length(), mass: robot.links.iter().map(|link| link.body.mass).sum() };
     parts.check_straight(errors);
     let biped = parts.biped(scale, errors, &mut lines);
-    plausibility::check(scale, &biped.as_ref().map_or(Vec::new(), report::bodies), errors);
+    plausibility::check(scale, robot, &biped.as_ref().map_or(Vec::new(), report::bodies), errors);
     let mut biped = biped?;
     symmetry::symmetrise(&mut biped, errors, &mut lines);
     report::impossible_moments(&biped, &mut lines);

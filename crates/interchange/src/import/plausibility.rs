@@ -3,6 +3,7 @@
 use crate::import::body::Body;
 use crate::import::drive::Scale;
 use crate::import::file_errors::FileErrors;
+use crate::import::urdf_robot::Robot;
 
 /// Length of a leg (m).
 const LEG: [f64; 2] = [0.1, 2.0];
@@ -11,8 +12,11 @@ const DENSITY: [f64; 2] = [8.0, 4000.0];
 /// Largest radius of gyration of a part of the robot, in leg lengths.
 const GYRATION_MAX: f64 = 10.0;
 
+/// How far a link's centre of mass may be from its frame, in leg lengths.
+const COM_MAX: f64 = 5.0;
+
 /// Notes lengths, masses and moments of inertia that no biped has, with the unit that is suspected.
-pub(super) fn check(scale: Scale, bodies: &[(&str, Body)], errors: &mut FileErrors) {
+pub(super) fn check(scale: Scale, robot: &Robot, bodies: &[(&str, Body)], errors: &mut FileErrors) {
     let Scale { leg, mass } = scale;
     let [short, long] = LEG;
     if !(short..=long).contains(&leg) {
@@ -42,7 +46,22 @@ pub(super) fn check(scale: Scale, bodies: &[(&str, Body)], errors: &mut FileErro
              {most:.0} kg: it looks like {unit}"
         ));
     }
+    for link in robot.links.iter().filter(|link| link.body.mass > 0.0 && link.body.com.norm() > COM_MAX * leg) {
+        let far = link.body.com.norm();
+        errors.note_at(
+            link.line,
+            format!(
+                "link {}: its centre of mass is {far:.3} m from its frame, and the leg {leg:.3} m long: <origin xyz> \
+                 must be in metres, and looks like another unit",
+                link.name
+            ),
+        );
+    }
     for (name, body) in bodies {
+        let must_weigh = ["thigh", "shank", "foot", "trunk"].iter().any(|part| name.ends_with(part));
+        if must_weigh && body.mass <= 0.0 {
+            errors.note(format!("{name} weighs nothing: its links must have <inertial> with <mass> (kilograms)"));
+        }
         let gyration = (body.inertia.diagonal().max() / body.mass).sqrt();
         if body.mass > 0.01 * mass && gyration > GYRATION_MAX * leg {
             errors.note(format!(

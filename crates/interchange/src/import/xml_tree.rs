@@ -66,7 +66,9 @@ pub(super) fn root_element(text: &str) -> Result<Element, String> {
         let begins = usize::try_from(reader.buffer_position()).unwrap_or(usize::MAX);
         let event = match reader.read_event() {
             Ok(event) => event,
-            Err(_) if open.last().is_some_and(|_| breaks_off(text, begins)) => return Err(broken_off(&open, text)),
+            Err(_) if !open.is_empty() && !text.get(begins..).is_some_and(|rest| rest.contains('>')) => {
+                return Err(broken_off(&open, &text[begins..], text));
+            }
             Err(error) => {
                 let line = lines.line_at(usize::try_from(reader.error_position()).unwrap_or(0));
                 return Err(format!("line {line}: it is no well-formed XML: {error}"));
@@ -75,7 +77,7 @@ pub(super) fn root_element(text: &str) -> Result<Element, String> {
         let line = lines.line_at(begins);
         let finished = match event {
             Event::Eof if open.is_empty() => return root.ok_or_else(|| "it has no XML elements".to_string()),
-            Event::Eof => return Err(broken_off(&open, text)),
+            Event::Eof => return Err(broken_off(&open, "", text)),
             Event::DocType(_) => return Err(format!("line {line}: it must have no <!DOCTYPE>")),
             Event::Start(start) => {
                 (elements, links) = (elements + 1, links + usize::from(is_link_or_joint(&start)));
@@ -125,17 +127,17 @@ fn element(start: &BytesStart, line: usize) -> Result<Element, String> {
     Ok(Element { name, line, attributes, children: Vec::new() })
 }
 
-/// Whether the text ends within the tag that begins at a byte.
-fn breaks_off(text: &str, begins: usize) -> bool {
-    text.get(begins..).is_some_and(|rest| !rest.contains('>'))
-}
-
-fn broken_off(open: &[Element], text: &str) -> String {
-    let within = open.last().map(|element| {
-        let name = element.attribute("name").map_or(String::new(), |name| format!(" name=\"{name}\""));
-        format!("within <{}{name}>", element.name)
-    });
-    let within = within.unwrap_or_else(|| "within a tag".to_string());
+/// Tells where a text breaks off: within which elements, or within a tag, of which `rest` is there.
+fn broken_off(open: &[Element], rest: &str, text: &str) -> String {
+    let word = rest.trim_start().split_whitespace().next().filter(|word| word.len() > 1 && word.starts_with('<'));
+    let within = match (word, open.last()) {
+        (Some(word), _) => format!("within the tag {word}"),
+        (None, Some(element)) => {
+            let name = element.attribute("name").map_or(String::new(), |name| format!(" name=\"{name}\""));
+            format!("within <{}{name}>", element.name)
+        }
+        (None, None) => "within a tag".to_string(),
+    };
     format!("it breaks off at line {}, {within}: a part of the file is missing", text.lines().count())
 }
 
