@@ -7,23 +7,70 @@ use std::fs;
 
 use interchange::import::{Imported, NamedText, import};
 
-use support::robots::{Allowed, is_symmetric, same_robot};
-use support::{ROBOTS, shared_robots};
+use support::robots::{Allowed, is_symmetric, same_numbers, same_robot};
+use support::variants::{nameless, reversed, shuffled, turned};
+use support::{ROBOTS, Tree, shared_robots};
 
 #[test]
-fn nine_robots_import_with_nothing_but_their_soles() {
+fn robots_whose_root_is_turned_come_out_the_same() {
+    each_robot(|name, urdf, sole, imported| {
+        let root = Tree::of_urdf(urdf).root;
+        for quarters in [1.0, 2.0, 3.0, 0.4] {
+            let yaw = quarters * std::f64::consts::FRAC_PI_2;
+            let turned = turned(urdf, &root, yaw);
+            let again = read(&turned, sole);
+            same_robot(&turned, &again, yaw, allowed(name));
+            assert_eq!(again.roles, imported.roles, "{name}");
+            if quarters >= 1.0 {
+                same_numbers(imported, &again);
+            }
+        }
+    });
+}
+
+#[test]
+fn order_of_links_and_joints_does_not_matter() {
+    each_robot(|name, urdf, sole, imported| {
+        for urdf in [reversed(urdf), shuffled(urdf, 1), shuffled(urdf, 2)] {
+            let again = read(&urdf, sole);
+            assert_eq!(again.roles, imported.roles, "{name}");
+            same_numbers(imported, &again);
+        }
+    });
+}
+
+#[test]
+fn names_do_not_matter() {
+    each_robot(|name, urdf, sole, imported| {
+        let urdf = nameless(urdf);
+        assert!(!urdf.contains("knee") && !urdf.contains("Knee"), "{name}");
+        same_numbers(imported, &read(&urdf, sole));
+        same_numbers(imported, &read(&reversed(&urdf), sole));
+    });
+}
+
+#[test]
+fn printed_maps_import_to_the_same_text() {
+    each_robot(|name, urdf, _, imported| assert!(read(urdf, &imported.map).text == imported.text, "{name}"));
+}
+
+/// Runs a test with name, URDF, sole and import of each robot.
+fn each_robot(test: impl Fn(&str, &str, &str, &Imported)) {
     let Some(folder) = shared_robots() else { return };
     for name in ROBOTS {
         let urdf = fs::read_to_string(folder.join(name).join("robot.urdf")).unwrap();
         let sole = fs::read_to_string(folder.join(name).join("sole.toml")).unwrap();
-        let imported = read(&urdf, &sole);
-        println!("== {name}");
-        for line in &imported.lines {
-            println!("  {line}");
-        }
-        same_robot(&urdf, &imported, 0.0, allowed(name));
-        is_symmetric(&imported);
+        test(name, &urdf, &sole, &read(&urdf, &sole));
     }
+}
+
+#[test]
+fn nine_robots_import_with_nothing_but_their_soles() {
+    each_robot(|name, urdf, _, imported| {
+        println!("== {name}\n  {}", imported.lines.join("\n  "));
+        same_robot(urdf, imported, 0.0, allowed(name));
+        is_symmetric(imported);
+    });
 }
 
 /// Robots whose URDFs are symmetric come out exactly; the others differ by half of what their sides differ.

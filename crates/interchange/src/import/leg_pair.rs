@@ -22,6 +22,39 @@ pub(super) struct LegPair {
     pub pelvis: usize,
 }
 
+impl LegPair {
+    /// The same legs in the graph in which the upper body's held joints turn, too: what is held there is no less a
+    /// waist's joint.
+    pub(super) fn with_upper_body(&self, robot: &Robot, graph: &BodyGraph) -> (BodyGraph, LegPair) {
+        let all = BodyGraph::new(robot, |joint| robot.joints[joint].turns());
+        let ends = |graph: &BodyGraph| [0, 1].map(|leg| graph.body_of[self.bodies[leg][5]]);
+        let [start, end] = ends(&all);
+        let between = all.path(start, end);
+        let upper = graph.beyond(self.pelvis, &[self.joints[0][0], self.joints[1][0]]);
+        let full = BodyGraph::new(robot, |index| {
+            let joint = &robot.joints[index];
+            let is_upper = upper.contains(&graph.body_of[joint.parent]) && between.iter().all(|(own, _)| *own != index);
+            joint.turns() && (graph.joints.contains(&index) || is_upper)
+        });
+        let [start, end] = ends(&full);
+        let path = full.path(start, end);
+        if path.len() == 12 { (full, LegPair::of_path(start, &path)) } else { (graph.clone(), self.clone()) }
+    }
+
+    /// The legs of a way of twelve joints from foot to foot that begins at a body.
+    fn of_path(start: usize, path: &[(usize, usize)]) -> Self {
+        let mut bodies: Vec<usize> = vec![start];
+        bodies.extend(path.iter().map(|(_, body)| *body));
+        let up = std::array::from_fn(|place| path[5 - place].0);
+        let down = std::array::from_fn(|place| path[6 + place].0);
+        Self {
+            joints: [up, down],
+            bodies: [std::array::from_fn(|place| bodies[5 - place]), std::array::from_fn(|place| bodies[7 + place])],
+            pelvis: bodies[6],
+        }
+    }
+}
+
 /// Finds the legs; notes what was found instead. `poses` is the zero posture in the root link's frame, z up.
 pub(super) fn find(
     robot: &Robot,
@@ -75,15 +108,7 @@ pub(super) fn find(
         errors.note(wrong_number(robot, poses, &path));
         return None;
     }
-    let mut bodies: Vec<usize> = vec![start];
-    bodies.extend(path.iter().map(|(_, body)| *body));
-    let up: [usize; 6] = std::array::from_fn(|place| path[5 - place].0);
-    let down: [usize; 6] = std::array::from_fn(|place| path[6 + place].0);
-    Some(LegPair {
-        joints: [up, down],
-        bodies: [std::array::from_fn(|place| bodies[5 - place]), std::array::from_fn(|place| bodies[7 + place])],
-        pelvis: bodies[6],
-    })
+    Some(LegPair::of_path(start, &path))
 }
 
 /// A way between two ends of the robot.

@@ -35,7 +35,12 @@ pub(super) fn find(
         let roles = match roles {
             Ok(roles) => roles,
             Err(what) => {
-                errors.note(format!("{} leg, from the pelvis down {}: {what}", side.name(), names.join(", ")));
+                errors.note(format!(
+                    "{} leg, from the pelvis down {}: {what}; this is so at the URDF's zero, where the robot must stand \
+                     straight, z up",
+                    side.name(),
+                    names.join(", ")
+                ));
                 continue;
             }
         };

@@ -99,6 +99,7 @@ fn import_robot(robot: &Robot, map: &ImportMap, file: &str, errors: &mut FileErr
     map.held.iter().for_each(|(joint, angle)| zero[*joint] = *angle);
     let poses = Poses::at(robot, &zero);
     let legs = leg_pair::find(robot, map, &graph, &poses, errors)?;
+    let (graph, legs) = legs.with_upper_body(robot, &graph);
     let facing = facing::find(robot, map, &legs, &graph.body_of, &poses, errors, &mut lines)?;
     let sides = [facing.right, 1 - facing.right];
 

@@ -95,7 +95,7 @@ fn couplings(robot: &Robot, used: &[(Role, usize)], lines: &mut Vec<String>) {
         }
     }
     for (other, joints) in told {
-        let moves = if is_used(other) { ", which moves" } else { "" };
+        let moves = if is_used(other) { ", which moves," } else { "" };
         lines.push(format!("couplings to {other}{moves} are not taken over (mimic): {} held", joints.join(", ")));
     }
 }

@@ -2,6 +2,7 @@
 //! hurt is refused before it costs time or memory.
 
 use quick_xml::Reader;
+use quick_xml::errors::{Error, SyntaxError};
 use quick_xml::events::{BytesStart, Event};
 
 /// Longest text (bytes).
@@ -66,8 +67,10 @@ pub(super) fn root_element(text: &str) -> Result<Element, String> {
         let begins = usize::try_from(reader.buffer_position()).unwrap_or(usize::MAX);
         let event = match reader.read_event() {
             Ok(event) => event,
-            Err(_) if !open.is_empty() && !text.get(begins..).is_some_and(|rest| rest.contains('>')) => {
-                return Err(broken_off(&open, &text[begins..], text));
+            // All of them but one: something is not closed before the text ends.
+            Err(Error::Syntax(error)) if error != SyntaxError::InvalidBangMarkup => {
+                let line = lines.line_at(begins);
+                return Err(broken_off(&open, text.get(begins..).unwrap_or_default(), line, text));
             }
             Err(error) => {
                 let line = lines.line_at(usize::try_from(reader.error_position()).unwrap_or(0));
@@ -77,7 +80,7 @@ pub(super) fn root_element(text: &str) -> Result<Element, String> {
         let line = lines.line_at(begins);
         let finished = match event {
             Event::Eof if open.is_empty() => return root.ok_or_else(|| "it has no XML elements".to_string()),
-            Event::Eof => return Err(broken_off(&open, "", text)),
+            Event::Eof => return Err(broken_off(&open, "", line, text)),
             Event::DocType(_) => return Err(format!("line {line}: it must have no <!DOCTYPE>")),
             Event::Start(start) => {
                 (elements, links) = (elements + 1, links + usize::from(is_link_or_joint(&start)));
@@ -127,17 +130,15 @@ fn element(start: &BytesStart, line: usize) -> Result<Element, String> {
     Ok(Element { name, line, attributes, children: Vec::new() })
 }
 
-/// Tells where a text breaks off: within which elements, or within a tag, of which `rest` is there.
-fn broken_off(open: &[Element], rest: &str, text: &str) -> String {
-    let word = rest.trim_start().split_whitespace().next().filter(|word| word.len() > 1 && word.starts_with('<'));
-    let within = match (word, open.last()) {
-        (Some(word), _) => format!("within the tag {word}"),
-        (None, Some(element)) => {
-            let name = element.attribute("name").map_or(String::new(), |name| format!(" name=\"{name}\""));
-            format!("within <{}{name}>", element.name)
-        }
-        (None, None) => "within a tag".to_string(),
-    };
+/// Tells where a text breaks off: within which element, or within a tag, of which `rest` is there from `line` on.
+fn broken_off(open: &[Element], rest: &str, line: usize, text: &str) -> String {
+    let word = rest.split_whitespace().next().filter(|word| word.len() > 1 && word.starts_with('<'));
+    let tag = word.map(|word| format!("within the tag {} of line {line}", config::quoted(word)));
+    let element = open.last().map(|element| {
+        let name = element.attribute("name").map_or(String::new(), |name| format!(" name=\"{name}\""));
+        format!("within <{}{name}> of line {}", element.name, element.line)
+    });
+    let within = tag.into_iter().chain(element).collect::<Vec<_>>().join(", ");
     format!("it breaks off at line {}, {within}: a part of the file is missing", text.lines().count())
 }
 

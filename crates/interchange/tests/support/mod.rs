@@ -10,6 +10,8 @@ use quick_xml::Reader;
 use quick_xml::events::Event;
 
 pub(crate) mod robots;
+pub(crate) mod variants;
+pub(crate) mod walker;
 
 /// A joint of either format.
 #[derive(Clone, Debug)]

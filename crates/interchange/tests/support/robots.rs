@@ -146,3 +146,32 @@ fn main_axis(role: &str) -> usize {
         _ => 1,
     }
 }
+
+/// Two mechanism files describe the same robot to 1e-9, whatever its joints are called in the URDF.
+pub(crate) fn same_numbers(one: &Imported, other: &Imported) {
+    let [one, other] = [one, other].map(|imported| imported.text.parse::<toml::Table>().unwrap());
+    assert_eq!(one["joint"].as_table().unwrap().len(), 20);
+    for (name, joint) in one["joint"].as_table().unwrap() {
+        let same = other["joint"][name].as_table().unwrap();
+        assert_eq!(joint.as_table().unwrap().len(), same.len(), "{name}");
+        for (key, value) in joint.as_table().unwrap().iter().filter(|(key, _)| *key != "urdf") {
+            assert!(near(value, &same[key]), "{name}.{key}: {value} and {}", same[key]);
+        }
+    }
+    assert!(near(&one["sole"], &other["sole"]));
+}
+
+fn near(one: &toml::Value, other: &toml::Value) -> bool {
+    match (one, other) {
+        (toml::Value::Array(one), toml::Value::Array(other)) => {
+            // products of inertia that are but rounding are left out
+            let number = |values: &[toml::Value], place: usize| values.get(place).map_or(0.0, as_number);
+            (0..6).all(|place| (number(one, place) - number(other, place)).abs() < 1e-9)
+        }
+        (toml::Value::Table(one), toml::Value::Table(other)) => {
+            one.iter().all(|(key, value)| other.get(key).is_some_and(|other| near(value, other)))
+        }
+        (toml::Value::String(one), toml::Value::String(other)) => one == other,
+        _ => (as_number(one) - as_number(other)).abs() < 1e-9,
+    }
+}
