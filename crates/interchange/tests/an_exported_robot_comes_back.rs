@@ -136,13 +136,13 @@ fn urdf_that_is_no_such_biped_is_refused_with_joint_and_remedy() {
         .replace("\"left_hip_pitch\"", "\"left_knee\"")
         .replace('?', "left_hip_pitch");
     let error = read(&good, &exchanged).map(|_| ()).expect_err("exchanged");
-    says(&error, &["robot.urdf: joint left_hip_pitch as left_knee", "joint left_knee as left_hip_pitch"]);
+    says(&error, &["joint left_hip_pitch as left_knee: it is the left_hip_pitch", "joint left_knee as left_hip_pitch"]);
     let error = with(&|robot| joint(robot, "left_hip_yaw").axis.xyz = Vec3([0.0, 0.2, 0.8]));
-    says(&error, &["hip_yaw axes", "14.04°", "may by 2°"]);
+    says(&error, &["joints right_hip_yaw and left_hip_yaw", "14.04°", "may by 2°"]);
     let error = with(&|robot| joint(robot, "left_knee").axis.xyz = Vec3([1.0, 0.0, 0.0]));
     says(&error, &["left leg, from the pelvis down left_hip_roll", "the fourth must be the knee"]);
     let error = with(&|robot| joint(robot, "left_knee").origin.xyz.0[2] -= 0.03);
-    says(&error, &["knee axes", "30.0 mm"]);
+    says(&error, &["joints right_knee and left_knee", "30.0 mm"]);
     let error = with(&|robot| link(robot, "right_shank").inertial.mass.value = 0.0);
     says(&error, &["the right shank weighs nothing"]);
     let error = with(&|robot| link(robot, "trunk").inertial.mass.value = -1.0);

@@ -214,6 +214,46 @@ fn limits_matter_where_joints_are_used() {
 }
 
 #[test]
+fn odd_numbers_are_taken_as_given_and_told() {
+    let slim = walker().replace("izz=\"0.006\"", "izz=\"0.05\"");
+    told(&taken(&slim, ""), "the right thigh (1.5000 kg): principal moments");
+    let half = walker().replace("lower=\"-0.1\" upper=\"2.2\"", "upper=\"2.2\"");
+    told(&taken(&half, ""), "the URDF tells but one end of the range; the other one is 0: right_knee, left_knee");
+    let late = walker().replace("lower=\"-0.1\" upper=\"2.2\"", "lower=\"0.1\" upper=\"2.2\"");
+    told(&taken(&late, ""), "the range 5.7° to 126.1° leaves out the straight posture: right_knee, left_knee");
+    let no_waist = walker().replace("\"waist_pitch\" type=\"revolute\"", "\"waist_pitch\" type=\"fixed\"");
+    told(&taken(&no_waist, "[joint.waist_pitch]\neffort_n_m = 3\n"), "joint.waist_pitch of the map is not used");
+}
+
+#[test]
+fn torn_texts_neither_panic_nor_fail_without_a_word() {
+    let text = walker();
+    let mut seed = 7_u64;
+    let mut random = |below: usize| {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (seed >> 33) as usize % below
+    };
+    let pieces: Vec<&str> = text.split_inclusive(['\n', ' ', '"']).collect();
+    for _ in 0..1500 {
+        let mut torn = pieces.clone();
+        for _ in 0..1 + random(3) {
+            let (from, to) = (random(torn.len()), random(torn.len()));
+            match random(3) {
+                0 => torn.swap(from, to),
+                1 => torn[from] = pieces[to],
+                _ => {
+                    let length = (from + 1 + random(20)).min(torn.len()) - from;
+                    torn.drain(from..from + length);
+                }
+            }
+        }
+        if let Err(error) = import(NamedText { text: &torn.concat(), file: "robot.urdf" }, None) {
+            assert!(error.0.starts_with("robot.urdf:") && error.0.len() > 20, "{error}");
+        }
+    }
+}
+
+#[test]
 fn what_a_urdf_may_be_is_taken() {
     let plain = taken(&walker(), "").text;
     let crlf = format!("\u{feff}{}", walker().replace('\n', "\r\n"));
@@ -263,7 +303,10 @@ fn robots_that_are_no_such_bipeds_are_refused_with_what_was_found() {
     refused(&bent, &["left leg: it is bent by 69°", "must stand straight"]);
     let no_sole = walker().replace("<box size=\"0.16 0.08 0.02\"/>", "<mesh filename=\"foot.stl\"/>");
     refused(&no_sole, &["link right_foot: the foot has no boxes", "[sole]", "ankle_height_m"]);
-    refused(&in_joint(&walker(), "left_knee", "\"0 0 -0.2\"", "\"0 0 -0.23\""), &["knee axes", "30.0 mm"]);
+    refused(
+        &in_joint(&walker(), "left_knee", "\"0 0 -0.2\"", "\"0 0 -0.23\""),
+        &["robot.urdf:", "joints right_knee and left_knee as knee", "30.0 mm"],
+    );
     let massless = in_link(&in_link(&walker(), "left_shank", "\"1\"", "\"0\""), "right_shank", "\"1\"", "\"0\"");
     refused(&massless, &["the left shank weighs nothing", "the right shank weighs nothing"]);
 }

@@ -111,22 +111,29 @@ impl Parts<'_> {
     pub(super) fn check_straight(&self, errors: &mut FileErrors) {
         for (side, leg) in Side::BOTH.into_iter().zip(self.sides) {
             let [thigh, shank] = self.segments(leg);
+            let line = self.robot.joints[self.legs.joints[leg][3]].line;
             let (whole, sum) = (thigh + shank, thigh.norm() + shank.norm());
             if thigh.norm().min(shank.norm()) < SEGMENT * sum {
-                errors.note(format!(
-                    "{} leg: its knee must have a thigh above and a shank below; they are {:.4} and {:.4} m long",
-                    side.name(),
-                    thigh.norm(),
-                    shank.norm()
-                ));
+                errors.note_at(
+                    line,
+                    format!(
+                        "{} leg: its knee must have a thigh above and a shank below; they are {:.4} and {:.4} m long",
+                        side.name(),
+                        thigh.norm(),
+                        shank.norm()
+                    ),
+                );
             } else if whole.norm() < STRETCHED * sum {
                 let bent = thigh.angle(&shank).to_degrees();
-                errors.note(format!(
-                    "{} leg: it is bent by {bent:.0}° at the URDF's zero; there the robot must stand straight",
-                    side.name()
-                ));
+                errors.note_at(
+                    line,
+                    format!(
+                        "{} leg: it is bent by {bent:.0}° at the URDF's zero; there the robot must stand straight",
+                        side.name()
+                    ),
+                );
             } else if -whole.z < UPRIGHT * whole.norm() {
-                errors.note(format!(
+                errors.note_at(line, format!(
                     "{} leg: from hip to ankle it points along [{:.2}, {:.2}, {:.2}] at the URDF's zero; there the robot \
                      must stand upright, z up",
                     side.name(),

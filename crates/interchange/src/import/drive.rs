@@ -77,6 +77,9 @@ pub(super) fn drive(
         }
         (None, _) => checked_range(limit.lower, limit.upper)?,
     };
+    if map.range.is_none() && joint.kind == JointKind::Revolute && !limit.complete {
+        notes.add("the URDF tells but one end of the range; the other one is 0".to_string(), &joint.name);
+    }
     if !(range[0] <= 0.0 && 0.0 <= range[1]) {
         let [low, high] = range.map(f64::to_degrees);
         notes.add(format!("the range {low:.1}° to {high:.1}° leaves out the straight posture"), &joint.name);

@@ -35,7 +35,7 @@ pub(super) fn find(
         let roles = match roles {
             Ok(roles) => roles,
             Err(what) => {
-                errors.note(format!(
+                errors.note_at(robot.joints[joints[0]].line, format!(
                     "{} leg, from the pelvis down {}: {what}; this is so at the URDF's zero, where the robot must stand \
                      straight, z up",
                     side.name(),
@@ -50,7 +50,9 @@ pub(super) fn find(
                 let is = is.map_or("not in that leg".to_string(), |is| format!("the {}_{}", side.name(), is.name()));
                 let name = &robot.joints[joint].name;
                 let must = "by its axis and its place between pelvis and foot; map it so, or leave it out of the map";
-                errors.note(format!("joint {name} as {}: it is {is} {must}", Role::Leg(side, role).name()));
+                let role = Role::Leg(side, role).name();
+                let line = robot.joints[joint].line;
+                errors.note_at(line, format!("joint {name} as {role}: it is {is} {must}"));
             }
         }
         found.push(roles);

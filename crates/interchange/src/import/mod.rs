@@ -125,7 +125,7 @@ fn import_robot(robot: &Robot, map: &ImportMap, file: &str, errors: &mut FileErr
     let biped = parts.biped(scale, errors, &mut lines);
     plausibility::check(scale, robot, &biped.as_ref().map_or(Vec::new(), report::bodies), errors);
     let mut biped = biped?;
-    symmetry::symmetrise(&mut biped, errors, &mut lines);
+    symmetry::symmetrise(&mut biped, robot, errors, &mut lines);
     report::impossible_moments(&biped, &mut lines);
     let feet = sides.map(|leg| legs.bodies[leg][5]);
     let sole = map.sole.or_else(|| {

@@ -77,9 +77,11 @@ pub(super) fn held(
         }
     }
     couplings(robot, used, lines);
-    for (role, joint) in map.joints.iter().filter(|(role, _)| role.is_in_arm()) {
+    let is_used = |role: Role| used.iter().any(|(own, _)| *own == role);
+    for (role, joint) in map.joints.iter().filter(|(role, _)| !is_used(*role)) {
         let which = joint.urdf.map_or(String::new(), |joint| format!(" ({})", name(joint)));
-        lines.push(format!("joint.{}{which} of the map is not used: arms are held", role.name()));
+        let why = if role.is_in_arm() { "arms are held" } else { "the robot has no such joint" };
+        lines.push(format!("joint.{}{which} of the map is not used: {why}", role.name()));
     }
 }
 

@@ -7,6 +7,7 @@ use crate::import::body::Body;
 use crate::import::file_errors::FileErrors;
 use crate::import::range_pair::{self, mirrored};
 use crate::import::role::{LegRole, Role, Side};
+use crate::import::urdf_robot::Robot;
 
 /// Rounding of a URDF's decimals (m, rad, and share).
 const ROUNDING: f64 = 1e-6;
@@ -18,12 +19,12 @@ const ANGLE_MAX: f64 = 0.035;
 const DISTANCE_MAX: f64 = 0.02;
 
 /// Makes both sides the mean of one and the mirror image of the other, and puts the middle at y = 0.
-pub(super) fn symmetrise(biped: &mut Biped, errors: &mut FileErrors, lines: &mut Vec<String>) {
+pub(super) fn symmetrise(biped: &mut Biped, robot: &Robot, errors: &mut FileErrors, lines: &mut Vec<String>) {
     let mut changes = Changes::default();
     let [right, left] = biped.legs;
     for (place, role) in biped.roles.into_iter().enumerate() {
         let (own, other) = (right.hinges[place], left.hinges[place]);
-        let hinge = mean_hinge(role, &own, &other, errors, &mut changes, lines);
+        let hinge = mean_hinge(role, [&own, &other], robot, errors, &mut changes, lines);
         biped.legs[0].hinges[place] = hinge;
         biped.legs[1].hinges[place] = Hinge {
             urdf: other.urdf,
@@ -62,8 +63,8 @@ pub(super) fn symmetrise(biped: &mut Biped, errors: &mut FileErrors, lines: &mut
 /// The mean of a joint of the right leg and the mirror image of the left one's.
 fn mean_hinge(
     role: LegRole,
-    own: &Hinge,
-    other: &Hinge,
+    [own, other]: [&Hinge; 2],
+    robot: &Robot,
     errors: &mut FileErrors,
     changes: &mut Changes,
     lines: &mut Vec<String>,
@@ -74,12 +75,18 @@ fn mean_hinge(
     let image = across(other.place);
     let (angle, off) = (own.axis.angle(&image_axis), across_axis(&axis, own.place - image));
     if angle > ANGLE_MAX || off > DISTANCE_MAX {
-        errors.note(format!(
-            "the {name} axes of right and left leg must be mirror images of each other; they differ by {:.2}° and \
-             {:.1} mm, and may by 2° and 20 mm",
-            angle.to_degrees(),
-            off * 1e3
-        ));
+        let joints = [own, other].map(|hinge| &robot.joints[hinge.urdf]);
+        errors.note_at(
+            joints[0].line,
+            format!(
+                "joints {} and {} as {name} of right and left leg: their axes must be mirror images of each other; they \
+                 differ by {:.2}° and {:.1} mm, and may by 2° and 20 mm",
+                joints[0].name,
+                joints[1].name,
+                angle.to_degrees(),
+                off * 1e3
+            ),
+        );
     }
     let place = (own.place + image) / 2.0;
     changes.length(across_axis(&axis, own.place - place), &format!("the {name} axis"));

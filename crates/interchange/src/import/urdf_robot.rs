@@ -82,8 +82,9 @@ pub(super) struct UrdfJoint {
 /// Limits of a joint as written (rad or m).
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Limit {
-    /// Whether there is a `<limit>`.
+    /// Whether there is a `<limit>`, and one that tells both ends.
     pub given: bool,
+    pub complete: bool,
     pub lower: f64,
     pub upper: f64,
     /// Largest rate and effort; `None` where absent.
@@ -226,6 +227,7 @@ fn read_joint(element: &Element, links: &HashMap<&str, usize>, errors: &mut File
     let limit = element.child("limit").filter(|_| needs_axis);
     let limit = limit.map_or(Limit::default(), |limit| Limit {
         given: true,
+        complete: limit.attribute("lower").is_some() && limit.attribute("upper").is_some(),
         lower: numbers.optional(limit, "lower", LIMIT).unwrap_or_default(),
         upper: numbers.optional(limit, "upper", LIMIT).unwrap_or_default(),
         velocity: numbers.optional(limit, "velocity", RATE),

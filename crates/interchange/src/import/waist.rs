@@ -47,8 +47,8 @@ pub(super) fn find(
     let (pitch, roll) = (pick(Role::WaistPitch, 1), pick(Role::WaistRoll, 0));
     for role in [Role::WaistPitch, Role::WaistRoll] {
         if let Some(joint) = told(role).filter(|joint| joints.iter().all(|(own, _)| own != joint)) {
-            let name = &robot.joints[joint].name;
-            errors.note(format!("joint {name} as {}: must lie between pelvis and trunk", role.name()));
+            let (name, line) = (&robot.joints[joint].name, robot.joints[joint].line);
+            errors.note_at(line, format!("joint {name} as {}: must lie between pelvis and trunk", role.name()));
         }
     }
     let roles = pitch.zip(roll).map(|(pitch, roll)| [pitch, roll]).filter(|[pitch, roll]| pitch != roll);
