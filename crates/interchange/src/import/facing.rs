@@ -18,6 +18,8 @@ const SNAP: f64 = 0.0175;
 /// Difference of bending to both sides from which knees tell a direction (rad).
 const KNEE_DIFFERENCE: f64 = 0.35;
 
+/// Sum of weights from which a direction is no mere assumption.
+const SURE: f64 = 0.5;
 /// How far from the ankle a frame on the foot marks heel or toe (m).
 const MARK: f64 = 0.01;
 
@@ -61,7 +63,11 @@ pub(super) fn find(
         votes.iter().filter(|vote| vote.0 != 0.0).partition(|vote| (vote.0 >= 0.0) == (sum >= 0.0));
     let words = |votes: &[&Vote]| votes.iter().map(|vote| vote.1).collect::<Vec<_>>().join(", ");
     let against = if against.is_empty() { String::new() } else { format!("; against it: {}", words(&against)) };
-    lines.push(format!("faces along {} of its root link ({}{against})", direction(ahead), words(&with)));
+    let faces = if sum.abs() < SURE { "is assumed to face" } else { "faces" };
+    lines.push(format!("{faces} along {} of its root link ({}{against})", direction(ahead), words(&with)));
+    if sum.abs() < SURE {
+        lines.push("if it faces the other way, name one joint in the map: [joint.right_knee] with urdf = \"…\"".into());
+    }
 
     let turn = Matrix3::from_rows(&[ahead.transpose(), left.transpose(), Vector3::z().transpose()]);
     let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn));
@@ -147,7 +153,7 @@ fn votes(
         Vote(1.5 * sign(marks, 0.5), "the feet's parts reach farther ahead of the ankles"),
         Vote(0.6 * sign(masses, 0.5), "the feet weigh more ahead of the ankles"),
         Vote(1.2 * sign(named, 0.5), "names say right and left"),
-        Vote(0.1 * sign(ahead.x, 0.7), "x is ahead, as URDFs mostly have it"),
+        Vote(0.1 * sign(ahead.x + 0.5 * ahead.y, 0.0), "x is ahead in URDFs, or else y"),
     ]
 }
 

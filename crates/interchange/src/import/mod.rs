@@ -20,6 +20,7 @@ mod leg_pair;
 mod leg_roles;
 mod map_text;
 mod mechanism_text;
+mod parts;
 mod plausibility;
 mod posture;
 mod range_pair;
@@ -30,6 +31,7 @@ mod symmetry;
 mod toml_text;
 mod urdf_format;
 mod urdf_numbers;
+mod urdf_reader;
 mod urdf_robot;
 mod urdf_tree;
 mod waist;
@@ -38,12 +40,12 @@ mod xml_tree;
 pub use file_errors::{ImportError, NamedText};
 pub use role::{LegRole, Role, Side};
 
-use biped::Parts;
 use body_graph::BodyGraph;
 use drive::Scale;
 use file_errors::FileErrors;
 use import_map::ImportMap;
 use mechanism_text::Header;
+use parts::Parts;
 use posture::{Poses, held_angles};
 use sole::contact_points;
 use urdf_robot::Robot;
@@ -73,7 +75,7 @@ pub struct Imported {
 /// All mistakes in the URDF's links and joints with their lines; else all mistakes in the map; else everything that a
 /// biped cannot have, with joint, value, and remedy.
 pub fn import(urdf: NamedText, map: Option<NamedText>) -> Result<Imported, ImportError> {
-    let robot = urdf_robot::read(urdf)?;
+    let robot = urdf_reader::read(urdf)?;
     let read = map.map(|map| ImportMap::read(map, &robot)).transpose().map_err(ImportError::new)?;
     let map = read.unwrap_or_default();
     let mut errors = FileErrors::new(urdf.file);

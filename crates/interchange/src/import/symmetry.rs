@@ -131,6 +131,7 @@ struct Changes {
     length: (f64, String),
     angle: (f64, String),
     mass: (f64, String),
+    moment: (f64, String),
     large: Vec<String>,
 }
 
@@ -159,6 +160,10 @@ impl Changes {
         if share > self.mass.0 {
             self.mass = (share, format!("the mass of {of}"));
         }
+        let moment = (before.inertia - after.inertia).amax() / after.inertia.diagonal().amax();
+        if moment > self.moment.0 {
+            self.moment = (moment, format!("that of {of}"));
+        }
         if 2.0 * share > MASS_TOLD {
             self.large.push(format!("the mass of {of} differs by {:.1} %", 200.0 * share));
         }
@@ -166,7 +171,7 @@ impl Changes {
 
     fn lines(self, lines: &mut Vec<String>) {
         let (mut parts, none) = (Vec::new(), ROUNDING);
-        let Changes { length, angle, mass, large } = self;
+        let Changes { length, angle, mass, moment, large } = self;
         if length.0 > none {
             parts.push(format!("no point moved by more than {:.3} mm ({})", 1e3 * length.0, length.1));
         }
@@ -175,6 +180,10 @@ impl Changes {
         }
         if mass.0 > none {
             parts.push(format!("no mass changed by more than {:.3} % ({})", 100.0 * mass.0, mass.1));
+        }
+        if moment.0 > none {
+            let percent = 100.0 * moment.0;
+            parts.push(format!("no inertia changed by more than {percent:.3} % of its greatest moment ({})", moment.1));
         }
         if !parts.is_empty() {
             lines.push(format!("made symmetric: {}", parts.join("; ")));
