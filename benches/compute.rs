@@ -10,8 +10,7 @@ use std::path::Path;
 use config::Config;
 use criterion::{Criterion, criterion_group, criterion_main};
 use dynamics::{
-    ArticulatedBody, Batch, Kinematics, LANES, Leg, LegSolver, NewtonEuler, Tree, ZmpJacobian, mass_matrix, solve_leg,
-    zmp,
+    ArticulatedBody, Batch, Kinematics, LANES, LegSolver, NewtonEuler, Tree, ZmpJacobian, mass_matrix, solve_leg, zmp,
 };
 use gait::{NominalRow, NominalTable, at_speed};
 use model::{JointVector, Mechanism, Motion, PerJoint, Side};
@@ -90,8 +89,8 @@ fn leg_ik(criterion: &mut Criterion) {
     let (tree, solver) = (Tree::new(&mechanism), LegSolver::new(&mechanism));
     let [near, wanted] = [29, 30].map(|row: usize| nominal.rows[row].motion.angles);
     let kinematics = Kinematics::fixed_base(&tree, &wanted);
-    let pelvis = kinematics.link_to_world(Leg(Side::Right).end());
-    let feet = Side::BOTH.map(|side| kinematics.link_to_world(Mechanism::foot(side)));
+    let pelvis = kinematics.link_to_world(tree.pelvis());
+    let feet = Side::BOTH.map(|side| kinematics.link_to_world(tree.foot(side)));
     let mut group = criterion.benchmark_group("leg_ik");
 
     group.bench_function("closed_form", |bencher| {
@@ -99,7 +98,7 @@ fn leg_ik(criterion: &mut Criterion) {
         bencher.iter(|| {
             for side in Side::BOTH {
                 let (pelvis, foot) = black_box((&pelvis, &feet[side.index()]));
-                solver.solve(&tree, Leg(side), pelvis, foot, &mut angles).expect("within reach");
+                solver.solve(&tree, side, pelvis, foot, &mut angles).expect("within reach");
             }
             angles
         });
@@ -107,8 +106,8 @@ fn leg_ik(criterion: &mut Criterion) {
     group.bench_function("newton", |bencher| {
         bencher.iter(|| {
             let mut angles = black_box(near);
-            solve_leg(&tree, Leg(Side::Right), &pelvis, &mut angles).expect("within reach");
-            solve_leg(&tree, Leg(Side::Left), &feet[Side::Left.index()], &mut angles).expect("within reach");
+            solve_leg(&tree, Side::Right, &pelvis, &mut angles).expect("within reach");
+            solve_leg(&tree, Side::Left, &feet[Side::Left.index()], &mut angles).expect("within reach");
             angles
         });
     });

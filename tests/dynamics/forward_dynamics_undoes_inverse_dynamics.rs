@@ -3,7 +3,7 @@
 
 use dynamics::{ArticulatedBody, BaseMotion, LinkLoad, NewtonEuler, Tree};
 use halfstep_tests::{mechanism, random, random_joints, random_motion, without_contact_joints};
-use model::{Joint, JointVector, Mechanism, Side};
+use model::{Joint, JointVector, Mechanism};
 use nalgebra::{Isometry3, Matrix6, Vector3};
 use rand::{Rng, rngs::StdRng};
 
@@ -28,8 +28,7 @@ fn forward_dynamics_undoes_inverse_dynamics_of_a_floating_robot() {
         inverse.compute_floating_base(&tree, &base, &motion);
 
         forward.set_state(&tree, &base.sole_to_world, base.angular_rate, base.velocity, &motion.angles, &motion.rates);
-        let on_foot =
-            LinkLoad { link: Mechanism::foot(Side::Right), wrench: inverse.ground, added_inertia: Matrix6::zeros() };
+        let on_foot = LinkLoad { link: Mechanism::RIGHT_FOOT, wrench: inverse.ground, added_inertia: Matrix6::zeros() };
         let found = forward.accelerations(&tree, &inverse.torques, &JointVector::ZERO, &[on_foot]);
 
         let joints = (found.joints - motion.accelerations).max_abs();

@@ -9,7 +9,6 @@ use crate::syntax::{Token, parse_without_tests, tokens};
 
 /// Files that may have `Side::Right =>` or `Side::Left =>`, each with its reason.
 pub const ALLOWED: &[(&str, &str)] = &[
-    ("crates/dynamics/src/inverse_kinematics.rs", "the joints of a leg"),
     ("crates/dynamics/src/leg_geometry.rs", "the right leg's chain begins at the foot, the left one's at the pelvis"),
     ("crates/dynamics/src/leg_solver.rs", "the right leg's chain begins at the foot, the left one's at the pelvis"),
     ("crates/interchange/src/import/straight_legs.rs", "the joints of a leg"),

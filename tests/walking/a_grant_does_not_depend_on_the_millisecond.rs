@@ -4,16 +4,17 @@
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::{Walking, controller_parameters, plant_parameters};
 use interface::{GaitChange, Reply, Setpoint, Verdict};
-use model::{Joint, Mechanism};
+use model::{Joint, Mechanism, Motor};
 
 /// Rounding of the voltage (V).
 const ROUNDING: f64 = 1e-6;
 
 /// The largest voltage that a setpoint demands of a motor, less what the motor has (V).
 fn excess(mechanism: &Mechanism, setpoint: &Setpoint) -> f64 {
-    let joints = Joint::ALL.into_iter().filter_map(|joint| Some((joint, mechanism.links[joint].motor?)));
+    let joints =
+        Joint::ALL.into_iter().filter_map(|joint| Some((joint, *mechanism.links[joint].motor.as_ref()?.dc()?)));
     let excess = joints.map(|(joint, motor)| {
-        let torque = setpoint.feed_forward[joint] + motor.back_emf_damping() * setpoint.rates[joint];
+        let torque = setpoint.feed_forward[joint] + Motor::Dc(motor).back_emf_damping() * setpoint.rates[joint];
         torque.abs() / motor.torque_per_volt() - motor.voltage_max
     });
     excess.fold(f64::NEG_INFINITY, f64::max)
@@ -52,7 +53,7 @@ fn an_extension_gets_one_grant_in_every_millisecond() {
 fn weak_motors_get_one_grant_in_every_millisecond() {
     let mut mechanism = mechanism();
     for link in &mut mechanism.links.0 {
-        if let Some(motor) = &mut link.motor {
+        if let Some(Motor::Dc(motor)) = &mut link.motor {
             motor.voltage_max = 26.0;
         }
     }

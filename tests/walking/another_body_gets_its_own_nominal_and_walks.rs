@@ -11,7 +11,7 @@ use halfstep_tests::{mechanism, python, repository};
 use interchange::import::{NamedText, import};
 use interchange::urdf::urdf_text;
 use interface::{GaitChange, Intent, Mode};
-use model::{Joint, Mechanism};
+use model::{Joint, Mechanism, Motor};
 use synthesis::{LegPattern, SynthesisParameters, synthesize};
 
 /// The URDF is fetched from PyPI.
@@ -145,7 +145,7 @@ fn map_of_our_own(scale: f64) -> String {
         sole.ankle_height * scale
     );
     for (name, joint) in [("leg", Joint::LeftKnee), ("arm", Joint::LeftElbow)] {
-        let motor = ours.links[joint].motor.expect("powered");
+        let motor = *ours.links[joint].motor.as_ref().and_then(Motor::dc).expect("powered by a DC motor");
         text += &format!(
             "[motor.{name}]\nresistance_ohm = {}\ntorque_constant_n_m_per_a = {}\nrotor_inertia_kg_m2 = {}\n\
              gear_ratio = {}\nvoltage_max_v = {}\n",

@@ -45,6 +45,11 @@ impl<'d> Table<'d> {
         self.find(key).is_some()
     }
 
+    /// How many entries an array has; `None` if the key is missing or no array.
+    pub fn array_len(&self, key: &str) -> Option<usize> {
+        self.find(key).and_then(|value| value.get_ref().as_array()).map(|array| array.len())
+    }
+
     /// A number in the unit that its key ends with.
     pub fn number(&self, key: &str) -> Number<'d> {
         self.scaled(key, 1.0)

@@ -295,7 +295,7 @@ impl Controller {
         if gait.advance(dt) {
             let mirror = gait.walk().mirror();
             // The swing foot as it landed: the reference is still that of the tick before.
-            let landed = self.reference.kinematics().rotation[Mechanism::foot(Side::Left)];
+            let landed = self.reference.kinematics().rotation[self.tree.foot(Side::Left)];
             let heading = landed.column(0).xy().try_normalize(f64::EPSILON).unwrap_or_else(Vector2::x);
             self.feedback.change_support(mirror, heading);
             self.landing.change_support(mirror);

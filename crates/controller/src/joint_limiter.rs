@@ -66,7 +66,7 @@ impl JointLimiter {
 /// The torque next to `torque` that a motor gives at a joint rate with its supply voltage (N·m), never more than at
 /// standstill.
 fn available(motor: &Motor, torque: f64, rate: f64) -> f64 {
-    let stall = motor.torque_per_volt() * motor.voltage_max;
+    let stall = motor.torque_max();
     let lost = motor.back_emf_damping() * rate;
     torque.min(stall - lost).max(-stall - lost).clamp(-stall, stall)
 }

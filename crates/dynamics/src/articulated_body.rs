@@ -3,7 +3,7 @@
 //! Spatial vectors are (angular, linear), in world axes about the origin of the right sole at this instant, so that
 //! articulated inertias are added without being transformed.
 
-use model::{GRAVITY, Joint, JointVector, Mechanism, PerJoint, Side, Wrench};
+use model::{GRAVITY, Joint, JointVector, Mechanism, PerJoint, Wrench};
 use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3, Vector6};
 
 use crate::{Kinematics, Tree};
@@ -75,7 +75,7 @@ impl Default for ArticulatedBody {
     }
 }
 
-const BASE: Joint = Mechanism::foot(Side::Right);
+const BASE: Joint = Mechanism::RIGHT_FOOT;
 
 impl ArticulatedBody {
     /// First stage: poses, velocities, and the inertia and bias wrench of each link by itself.
@@ -96,7 +96,7 @@ impl ArticulatedBody {
         self.velocity[BASE] = spatial(angular_rate, velocity);
         self.set_rigid_body(tree, BASE);
 
-        for joint in Tree::floating_joints() {
+        for joint in tree.floating_joints() {
             let Some(parent) = tree.nodes[joint].parent else { continue };
             let axis = self.kinematics.axis[joint];
             let subspace = spatial(axis, self.kinematics.origin[joint].cross(&axis));
@@ -119,13 +119,14 @@ impl ArticulatedBody {
         };
         let rotation = &self.kinematics.rotation[joint];
         let com = self.kinematics.origin[joint] + rotation * body.com;
+        let principal = body.principal_rotation(rotation);
         let scaled = Matrix3::from_columns(&[
-            rotation.column(0) * body.inertia.x,
-            rotation.column(1) * body.inertia.y,
-            rotation.column(2) * body.inertia.z,
+            principal.column(0) * body.inertia.x,
+            principal.column(1) * body.inertia.y,
+            principal.column(2) * body.inertia.z,
         ]);
         let first = (com * body.mass).cross_matrix();
-        let second = scaled * rotation.transpose() - first * com.cross_matrix();
+        let second = scaled * principal.transpose() - first * com.cross_matrix();
 
         let inertia = &mut self.rigid_inertia[joint];
         inertia.fixed_view_mut::<3, 3>(0, 0).copy_from(&second);
@@ -157,11 +158,13 @@ impl ArticulatedBody {
             self.bias[load.link] -= spatial(load.wrench.moment, load.wrench.force) + at_rest;
         }
 
-        for joint in Tree::floating_joints().rev() {
+        for joint in tree.floating_joints().rev() {
             let Some(parent) = tree.nodes[joint].parent else { continue };
             let subspace = self.subspace[joint];
             let inertia_by_subspace = self.inertia[joint] * subspace;
-            let resistance = 1.0 / (subspace.dot(&inertia_by_subspace) + armature[joint]);
+            // A joint that the robot does not have resists whatever turns it.
+            let is_rigid = tree.nodes[joint].is_rigid;
+            let resistance = if is_rigid { 0.0 } else { 1.0 / (subspace.dot(&inertia_by_subspace) + armature[joint]) };
             let drive = torques[joint] - subspace.dot(&self.bias[joint]);
             self.inertia_by_subspace[joint] = inertia_by_subspace;
             self.resistance[joint] = resistance;
@@ -180,7 +183,7 @@ impl ArticulatedBody {
         let base = self.inertia[BASE].cholesky().map_or_else(Vector6::zeros, |factor| factor.solve(&-self.bias[BASE]));
         self.acceleration[BASE] = base;
         let mut joints = JointVector::ZERO;
-        for joint in Tree::floating_joints() {
+        for joint in tree.floating_joints() {
             let Some(parent) = tree.nodes[joint].parent else { continue };
             let carried = self.acceleration[parent] + self.bias_acceleration[joint];
             let acceleration =

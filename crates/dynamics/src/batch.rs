@@ -4,7 +4,7 @@
 //! The recursion is that of [`NewtonEuler`](crate::NewtonEuler), without torques. The arithmetic is the same on every
 //! processor, so the bits are, too; only the width of the registers is chosen at run time.
 
-use model::{GRAVITY, Joint, Motion, PerJoint, Wrench};
+use model::{Body, GRAVITY, Joint, Motion, PerJoint, Wrench};
 use nalgebra::Vector3;
 
 use crate::Tree;
@@ -30,7 +30,8 @@ pub struct Batch {
     angles: PerJoint<Lanes>,
     rates: PerJoint<Lanes>,
     accelerations: PerJoint<Lanes>,
-    links: PerJoint<LinkLanes>,
+    /// In the order of the tree.
+    links: [LinkLanes; Joint::COUNT],
     force: Vectors,
     moment: Vectors,
 }
@@ -42,7 +43,7 @@ impl Default for Batch {
             angles: zero,
             rates: zero,
             accelerations: zero,
-            links: PerJoint([LinkLanes::GROUND; Joint::COUNT]),
+            links: [LinkLanes::GROUND; Joint::COUNT],
             force: Vectors::ZERO,
             moment: Vectors::ZERO,
         }
@@ -96,10 +97,13 @@ impl Batch {
     #[inline(always)]
     fn compute_portably(&mut self, tree: &Tree) {
         let (mut force, mut moment) = (Vectors::ZERO, Vectors::ZERO);
-        for joint in Joint::ALL {
+        // Where in the order each joint's link is.
+        let mut places = PerJoint([0; Joint::COUNT]);
+        for (place, &joint) in tree.order.all().iter().enumerate() {
+            places[joint] = place;
             let node = &tree.nodes[joint];
-            let (placed, rest) = self.links.0.split_at_mut(joint.index());
-            let parent = node.parent.map_or(&LinkLanes::GROUND, |parent| &placed[parent.index()]);
+            let (placed, rest) = self.links.split_at_mut(place);
+            let parent = node.parent.map_or(&LinkLanes::GROUND, |parent| &placed[places[parent]]);
             let link = &mut rest[0];
 
             let axis = link.rotate_from(parent, node.axis, self.angles[joint]);
@@ -117,7 +121,7 @@ impl Batch {
                 let arm = link.across(&body.com);
                 let push = (link.acceleration + link.swept(&arm)).times(body.mass);
                 force = force + push;
-                moment = moment + (link.origin + arm).cross(&push) + link.spun(&body.inertia);
+                moment = moment + (link.origin + arm).cross(&push) + link.spun(body);
             }
         }
         (self.force, self.moment) = (force, moment);
@@ -185,8 +189,12 @@ impl LinkLanes {
 
     /// Rate of change of the angular momentum about the centre of mass, from principal moments of inertia.
     #[inline(always)]
-    fn spun(&self, inertia: &Vector3<f64>) -> Vectors {
-        let [x, y, z] = &self.columns;
+    fn spun(&self, body: &Body) -> Vectors {
+        let inertia = &body.inertia;
+        let [x, y, z] = &match &body.principal_axes {
+            None => self.columns,
+            Some(axes) => [0, 1, 2].map(|column| self.across(&axes.matrix().column(column).into_owned())),
+        };
         let rate = [x.dot(&self.rate), y.dot(&self.rate), z.dot(&self.rate)];
         let turning = &self.angular_acceleration;
         *x * (x.dot(turning).times(inertia.x) + rate[1] * rate[2].times(inertia.z - inertia.y))

@@ -30,7 +30,8 @@ impl Composite {
         let Some(body) = &tree.nodes[joint].body else { return Self::ZERO };
         let rotation = &kinematics.rotation[joint];
         let com = kinematics.origin[joint] + rotation * body.com;
-        let about_com = rotation * Matrix3::from_diagonal(&body.inertia) * rotation.transpose();
+        let principal = body.principal_rotation(rotation);
+        let about_com = principal * Matrix3::from_diagonal(&body.inertia) * principal.transpose();
         let first = body.mass * com;
         let about_origin = Matrix3::from_diagonal_element(first.dot(&com)) - first * com.transpose();
         Self { mass: body.mass, first, second: about_com + about_origin }

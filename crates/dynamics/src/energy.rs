@@ -22,7 +22,8 @@ pub fn kinetic_energy(
 ) -> f64 {
     let mut twists = [(angular_rate, velocity); model::Joint::COUNT];
     let mut energy = 0.0;
-    for (joint, node) in tree.nodes.iter() {
+    for &joint in tree.order.all() {
+        let node = &tree.nodes[joint];
         if joint.is_powered()
             && let Some(parent) = node.parent
         {
@@ -34,7 +35,7 @@ pub fn kinetic_energy(
         if let Some(body) = &node.body {
             let (rate, velocity) = twists[joint.index()];
             let com_velocity = velocity + rate.cross(&(kinematics.rotation[joint] * body.com));
-            let rate_in_link = kinematics.rotation[joint].tr_mul(&rate);
+            let rate_in_link = body.principal_rotation(&kinematics.rotation[joint]).tr_mul(&rate);
             energy += 0.5 * body.mass * com_velocity.norm_squared()
                 + 0.5 * rate_in_link.dot(&body.inertia.component_mul(&rate_in_link));
         }

@@ -3,7 +3,7 @@
 //! Newton's method on the geometric Jacobian. It reads the axes from the mechanism, so it serves every axis reading,
 //! and with the angles of a moment ago as a first guess it needs two or three iterations.
 
-use model::{Joint, JointVector, Side};
+use model::{JointOrder, JointVector, Side};
 use nalgebra::{Isometry3, Matrix6, UnitQuaternion, Vector3, Vector6};
 
 use crate::{Kinematics, Tree};
@@ -15,10 +15,6 @@ const ITERATIONS_MAX: usize = 40;
 /// Longest Newton step of a joint (rad); near the stretched leg full steps would diverge.
 const STEP_MAX: f64 = 0.3;
 
-/// A leg as a chain of six joints: the right one from foot to pelvis, the left one from pelvis to foot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Leg(pub Side);
-
 /// The pose cannot be reached, or only through a stretched knee.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unreachable {
@@ -26,28 +22,13 @@ pub struct Unreachable {
     pub residual: f64,
 }
 
-impl Leg {
-    /// The joints of the chain: from the ground up for the right leg, from the pelvis down for the left one.
-    pub const fn joints(self) -> [Joint; 6] {
-        use Joint::*;
-        match self.0 {
-            Side::Right => [RightAnkleRoll, RightAnklePitch, RightKnee, RightHipPitch, RightHipYaw, RightHipRoll],
-            Side::Left => [LeftHipRoll, LeftHipYaw, LeftHipPitch, LeftKnee, LeftAnklePitch, LeftAnkleRoll],
-        }
-    }
-
-    /// The link at the chain's far end: pelvis or left foot.
-    pub const fn end(self) -> Joint {
-        self.joints()[5]
-    }
-}
-
-/// Changes the six angles of a leg in `angles` until the link at its end has the pose `target` (link to support
+/// Changes the six angles of a leg in `angles` until the link at its end, the pelvis for the right leg and the foot for
+/// the left one, has the pose `target` (link to support
 /// coordinates), all other angles kept. The angles given are the first guess and choose the way the knee bends.
 ///
 /// # Errors
 /// [`Unreachable`] leaves the closest angles found.
-pub fn solve_leg(tree: &Tree, leg: Leg, target: &Isometry3<f64>, angles: &mut JointVector) -> Result<(), Unreachable> {
+pub fn solve_leg(tree: &Tree, leg: Side, target: &Isometry3<f64>, angles: &mut JointVector) -> Result<(), Unreachable> {
     solve_leg_from(Kinematics::fixed_base(tree, angles), tree, leg, target, angles)
 }
 
@@ -55,15 +36,16 @@ pub fn solve_leg(tree: &Tree, leg: Leg, target: &Isometry3<f64>, angles: &mut Jo
 pub(crate) fn solve_leg_from(
     mut kinematics: Kinematics,
     tree: &Tree,
-    leg: Leg,
+    leg: Side,
     target: &Isometry3<f64>,
     angles: &mut JointVector,
 ) -> Result<(), Unreachable> {
     let mut residual = f64::INFINITY;
+    let joints = tree.leg(leg);
     for _ in 0..ITERATIONS_MAX {
         // The links that carry the leg stay where they are.
-        kinematics.chain(tree, angles, leg.joints()[0].index()..leg.end().index() + 1);
-        let end = kinematics.link_to_world(leg.end());
+        kinematics.chain(tree, angles, JointOrder::places_of_leg(leg));
+        let end = kinematics.link_to_world(joints[5]);
         let miss = pose_difference(&end, target);
         residual = miss.amax();
         if residual < TOLERANCE {
@@ -71,7 +53,7 @@ pub(crate) fn solve_leg_from(
         }
 
         let mut jacobian = Matrix6::zeros();
-        for (column, joint) in leg.joints().into_iter().enumerate() {
+        for (column, joint) in joints.into_iter().enumerate() {
             let axis = kinematics.axis[joint];
             let arm = end.translation.vector - kinematics.origin[joint];
             jacobian.fixed_view_mut::<3, 1>(0, column).copy_from(&axis.cross(&arm));
@@ -79,7 +61,7 @@ pub(crate) fn solve_leg_from(
         }
         let Some(step) = jacobian.lu().solve(&miss) else { break };
         let shorten = (STEP_MAX / step.amax()).min(1.0);
-        for (joint, change) in leg.joints().into_iter().zip(step.iter()) {
+        for (joint, change) in joints.into_iter().zip(step.iter()) {
             angles[joint] += change * shorten;
         }
     }

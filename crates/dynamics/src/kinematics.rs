@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use model::{ComState, Joint, JointVector, Mechanism, PerJoint, Side};
+use model::{ComState, Joint, JointOrder, JointVector, Mechanism, PerJoint, Side};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use crate::Tree;
@@ -37,12 +37,19 @@ impl Kinematics {
         kinematics
     }
 
-    /// As [`Kinematics::fixed_base`], up to a link of the chain from the right sole over the pelvis to the left sole.
-    /// The poses of the links beyond it are not computed.
+    /// As [`Kinematics::fixed_base`], up to the pelvis. The poses of the links beyond it are not computed.
     #[inline]
-    pub fn fixed_base_up_to(tree: &Tree, angles: &JointVector, link: Joint) -> Self {
+    pub fn fixed_base_up_to_pelvis(tree: &Tree, angles: &JointVector) -> Self {
         let mut kinematics = Self::default();
-        kinematics.chain(tree, angles, 0..link.index() + 1);
+        kinematics.chain(tree, angles, 0..JointOrder::UP_TO_PELVIS);
+        kinematics
+    }
+
+    /// As [`Kinematics::fixed_base`], over the pelvis to the left foot. The poses of waist and arms are not computed.
+    #[inline]
+    pub fn fixed_base_up_to_left_foot(tree: &Tree, angles: &JointVector) -> Self {
+        let mut kinematics = Self::default();
+        kinematics.chain(tree, angles, 0..JointOrder::UP_TO_LEFT_FOOT);
         kinematics
     }
 
@@ -55,7 +62,7 @@ impl Kinematics {
     /// The poses of the floating robot; `right_sole` is the pose of its right sole, sole to world.
     #[inline]
     pub fn compute_floating_base(&mut self, tree: &Tree, right_sole: &Isometry3<f64>, angles: &JointVector) {
-        self.place(Mechanism::foot(Side::Right), right_sole);
+        self.place(Mechanism::RIGHT_FOOT, right_sole);
         self.chain(tree, angles, Joint::FIRST_POWERED.index()..Joint::COUNT);
     }
 
@@ -66,12 +73,12 @@ impl Kinematics {
         self.origin[link] = link_to_world.translation.vector;
     }
 
-    /// Computes the poses of the links of `joints`, given by index. Their parents must have poses already or be among
-    /// them.
+    /// Computes the poses of the links of `joints`, given by their places in the order, which are whole legs. Their
+    /// parents must have poses already or be among them.
     #[inline(always)]
     pub(crate) fn chain(&mut self, tree: &Tree, angles: &JointVector, joints: Range<usize>) {
         let turned = SinCos::of(angles, joints.clone());
-        for &joint in &Joint::ALL[joints] {
+        for &joint in &tree.order.all()[joints] {
             let node = &tree.nodes[joint];
             let (parent_rotation, parent_origin) = match node.parent {
                 Some(parent) => (self.rotation[parent], self.origin[parent]),
@@ -95,7 +102,7 @@ impl Kinematics {
 
     /// Pose of a sole: maps sole coordinates to world coordinates.
     pub fn sole_to_world(&self, mechanism: &Mechanism, side: Side) -> Isometry3<f64> {
-        self.link_to_world(Mechanism::foot(side)) * Translation3::from(mechanism.sole_in_foot(side))
+        self.link_to_world(mechanism.foot(side)) * Translation3::from(mechanism.sole_in_foot(side))
     }
 
     /// Centre of mass of the whole robot (m).
@@ -120,7 +127,8 @@ impl Kinematics {
         let mut angular = PerJoint([Vector3::zeros(); Joint::COUNT]);
         let mut linear = angular;
         let mut momentum = Vector3::zeros();
-        for (link, node) in tree.nodes.iter() {
+        for &link in tree.order.all() {
+            let node = &tree.nodes[link];
             let spin = self.axis[link] * rates[link];
             let (parent_angular, parent_linear) = match node.parent {
                 Some(parent) => (angular[parent], linear[parent]),

@@ -12,7 +12,7 @@ use model::{Joint, JointVector, Mechanism, Side};
 use nalgebra::{Isometry3, Vector3};
 
 use crate::atan2;
-use crate::inverse_kinematics::{Leg, TOLERANCE, Unreachable};
+use crate::inverse_kinematics::{TOLERANCE, Unreachable};
 
 /// A leg of that structure: its lengths and the senses of its joints.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +35,7 @@ impl LegGeometry {
     /// The geometry of a leg; `None` if the mechanism's leg has another structure.
     pub(crate) fn new(mechanism: &Mechanism, side: Side) -> Option<Self> {
         let up = if side == Side::Right { 1.0 } else { -1.0 };
-        let chain = Leg(side).joints();
+        let chain = mechanism.leg(side);
         let mut joints = chain;
         // From the first joint in its parent, then from each joint to the next one.
         let [root, mut steps @ ..] = chain.map(|joint| mechanism.links[joint].origin);

@@ -3,7 +3,7 @@
 use model::{JointVector, Mechanism, Side};
 use nalgebra::Isometry3;
 
-use crate::inverse_kinematics::{Leg, Unreachable, solve_leg_from};
+use crate::inverse_kinematics::{Unreachable, solve_leg_from};
 use crate::leg_geometry::LegGeometry;
 use crate::{Kinematics, Tree};
 
@@ -29,8 +29,8 @@ impl LegSolver {
         self.closed_forms.is_some()
     }
 
-    /// Writes into `angles` the six angles of a leg that connect the pelvis link ([`Leg::end`] of the right leg) to the
-    /// foot link ([`Mechanism::foot`]); both poses map link to support coordinates. No other angle is read.
+    /// Writes into `angles` the six angles of a leg that connect the pelvis link ([`Mechanism::pelvis`]) to the foot
+    /// link ([`Mechanism::foot`]); both poses map link to support coordinates. No other angle is read.
     ///
     /// In closed form the knee bends backward, the hip is above the foot, the hip yaws by less than 90°, and the leg's
     /// own angles are not read. By iteration they are the first guess.
@@ -43,17 +43,17 @@ impl LegSolver {
     pub fn solve(
         &self,
         tree: &Tree,
-        leg: Leg,
+        leg: Side,
         pelvis_to_support: &Isometry3<f64>,
         foot_to_support: &Isometry3<f64>,
         angles: &mut JointVector,
     ) -> Result<(), Unreachable> {
         if let Some(closed_forms) = &self.closed_forms {
-            return closed_forms[leg.0.index()].solve(pelvis_to_support, foot_to_support, angles);
+            return closed_forms[leg.index()].solve(pelvis_to_support, foot_to_support, angles);
         }
-        let (base, base_to_support, target) = match leg.0 {
-            Side::Right => (Mechanism::foot(Side::Right), foot_to_support, pelvis_to_support),
-            Side::Left => (Leg(Side::Right).end(), pelvis_to_support, foot_to_support),
+        let (base, base_to_support, target) = match leg {
+            Side::Right => (Mechanism::RIGHT_FOOT, foot_to_support, pelvis_to_support),
+            Side::Left => (tree.pelvis(), pelvis_to_support, foot_to_support),
         };
         let mut kinematics = Kinematics::default();
         kinematics.place(base, base_to_support);

@@ -32,7 +32,7 @@ pub use articulated_body::{Accelerations, ArticulatedBody, LinkLoad};
 pub use atan2::atan2;
 pub use batch::Batch;
 pub use energy::{kinetic_energy, potential_energy};
-pub use inverse_kinematics::{Leg, Unreachable, solve_leg};
+pub use inverse_kinematics::{Unreachable, solve_leg};
 pub use kinematics::Kinematics;
 pub use lanes::LANES;
 pub use leg_solver::LegSolver;

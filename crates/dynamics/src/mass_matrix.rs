@@ -16,7 +16,7 @@ pub fn mass_matrix(tree: &Tree, kinematics: &Kinematics) -> MassMatrix {
     let mut composite = PerJoint::from_fn(|joint| Composite::of_link(tree, kinematics, joint));
     let mut matrix = MassMatrix::zeros();
 
-    for joint in Joint::ALL.into_iter().rev() {
+    for &joint in tree.order.all().iter().rev() {
         let body = composite[joint];
         if let Some(parent) = tree.nodes[joint].parent {
             composite[parent] = composite[parent] + body;

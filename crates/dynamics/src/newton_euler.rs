@@ -1,7 +1,7 @@
 //! Recursive Newton–Euler: the torques and the ground wrench that a motion needs (Luh, Walker and Paul 1980), in world
 //! axes about one common origin.
 
-use model::{GRAVITY, Joint, JointVector, Mechanism, Motion, PerJoint, Side, Wrench};
+use model::{GRAVITY, Joint, JointVector, Mechanism, Motion, PerJoint, Wrench};
 use nalgebra::{Isometry3, Vector3};
 
 use crate::{Kinematics, Tree};
@@ -74,8 +74,8 @@ impl NewtonEuler {
     pub fn compute_with_gravity(&mut self, tree: &Tree, motion: &Motion, gravity: f64) {
         self.kinematics.compute_fixed_base(tree, &motion.angles);
         let ground = LinkMotion { acceleration: Vector3::new(0.0, 0.0, gravity), ..LinkMotion::default() };
-        self.outward(tree, motion, ground, Joint::ALL.into_iter());
-        self.ground = self.inward(tree, Joint::ALL.into_iter());
+        self.outward(tree, motion, ground, tree.order.all().iter().copied());
+        self.ground = self.inward(tree, tree.order.all().iter().copied());
     }
 
     /// Wrench of the ground about O that a motion needs with the right sole fixed at O. Fills neither `torques` nor
@@ -84,14 +84,14 @@ impl NewtonEuler {
     pub fn ground_wrench(&mut self, tree: &Tree, motion: &Motion) -> Wrench {
         self.kinematics.compute_fixed_base(tree, &motion.angles);
         let ground = LinkMotion { acceleration: Vector3::new(0.0, 0.0, GRAVITY), ..LinkMotion::default() };
-        self.outward(tree, motion, ground, Joint::ALL.into_iter());
+        self.outward(tree, motion, ground, tree.order.all().iter().copied());
         self.wrench.0.iter().fold(Wrench::ZERO, |sum, wrench| sum + *wrench)
     }
 
     /// Inverse dynamics of a motion of the floating robot: fills `torques`, and `ground` with the external wrench about
     /// the right sole's origin that the motion needs.
     pub fn compute_floating_base(&mut self, tree: &Tree, base: &BaseMotion, motion: &Motion) {
-        let foot = Mechanism::foot(Side::Right);
+        let foot = Mechanism::RIGHT_FOOT;
         self.kinematics.compute_floating_base(tree, &base.sole_to_world, &motion.angles);
         self.links[foot] = LinkMotion {
             angular_rate: base.angular_rate,
@@ -99,8 +99,8 @@ impl NewtonEuler {
             acceleration: base.acceleration + Vector3::new(0.0, 0.0, GRAVITY),
         };
         self.wrench[foot] = self.body_wrench(tree, foot);
-        self.outward(tree, motion, LinkMotion::default(), Tree::floating_joints());
-        self.inward(tree, Tree::floating_joints());
+        self.outward(tree, motion, LinkMotion::default(), tree.floating_joints());
+        self.inward(tree, tree.floating_joints());
         self.torques[Joint::FootRoll] = 0.0;
         self.torques[Joint::FootPitch] = 0.0;
         self.ground = self.wrench[foot].about(self.kinematics.origin[foot]);
@@ -147,10 +147,11 @@ impl NewtonEuler {
             + link.angular_rate.cross(&link.angular_rate.cross(&arm));
         let force = body.mass * com_acceleration;
 
-        let rate = rotation.tr_mul(&link.angular_rate);
-        let acceleration = rotation.tr_mul(&link.angular_acceleration);
+        let principal = body.principal_rotation(rotation);
+        let rate = principal.tr_mul(&link.angular_rate);
+        let acceleration = principal.tr_mul(&link.angular_acceleration);
         let moment =
-            rotation * (body.inertia.component_mul(&acceleration) + rate.cross(&body.inertia.component_mul(&rate)));
+            principal * (body.inertia.component_mul(&acceleration) + rate.cross(&body.inertia.component_mul(&rate)));
         Wrench { force, moment: moment + com.cross(&force) }
     }
 

@@ -80,7 +80,7 @@ impl ReferenceDynamics {
 
     /// Wrench of the ground about the origin of the support sole, in its axes, if it alone carries the robot.
     pub fn ground_on_sole(&self) -> Wrench {
-        let axes = self.inverse.kinematics.rotation[Mechanism::foot(Side::Right)];
+        let axes = self.inverse.kinematics.rotation[Mechanism::RIGHT_FOOT];
         let Wrench { force, moment } = self.inverse.ground;
         Wrench { force: axes.tr_mul(&force), moment: axes.tr_mul(&moment) }
     }
@@ -100,7 +100,7 @@ impl ReferenceDynamics {
         if let Some(point) = zmp(&self.inverse.ground) {
             self.zmp = point;
         }
-        let share = self.share_of_swing_foot(contact);
+        let share = self.share_of_swing_foot(tree, contact);
         let on_support = self.inverse.torques;
         let carried = if share > 0.0 {
             let on_swing = self.on_swing_foot(tree, mirror, motion);
@@ -121,8 +121,8 @@ impl ReferenceDynamics {
     }
 
     /// The swing foot's share of the ground reaction.
-    fn share_of_swing_foot(&self, contact: PlannedContact) -> f64 {
-        let to_swing = self.inverse.kinematics.origin[Mechanism::foot(Side::Left)].xy();
+    fn share_of_swing_foot(&self, tree: &Tree, contact: PlannedContact) -> f64 {
+        let to_swing = self.inverse.kinematics.origin[tree.foot(Side::Left)].xy();
         let along = self.zmp.dot(&to_swing) / to_swing.norm_squared();
         let (leaves, enters) = match contact {
             PlannedContact::SupportFoot => return 0.0,

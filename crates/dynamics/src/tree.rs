@@ -1,12 +1,14 @@
 //! The mechanism prepared for the algorithms: axes sorted by direction, massless links and coincident origins marked.
 
-use model::{Joint, Mechanism, PerJoint};
+use model::{Joint, JointOrder, Mechanism, PerJoint, Side};
 use nalgebra::{Matrix3, Unit, Vector3};
 
 /// A mechanism prepared for the algorithms. Read-only.
 #[derive(Clone, Debug)]
 pub struct Tree {
     pub(crate) nodes: PerJoint<Node>,
+    /// All joints, parents before their children.
+    pub(crate) order: JointOrder,
     /// Mass of the whole robot (kg).
     pub mass: f64,
 }
@@ -22,6 +24,8 @@ pub(crate) struct Node {
     pub origin: Option<Vector3<f64>>,
     /// Mass and inertia of the link; `None` for a massless link.
     pub body: Option<model::Body>,
+    /// Whether it never moves: the robot does not have the joint.
+    pub is_rigid: bool,
 }
 
 /// The axis of a joint. Nearly all are along a coordinate, where a rotation touches two columns only.
@@ -43,14 +47,34 @@ impl Tree {
                 axis: JointAxis::new(link.axis),
                 origin: (link.origin != Vector3::zeros()).then_some(link.origin),
                 body: (link.body.mass > 0.0).then_some(link.body),
+                is_rigid: joint.is_powered() && !mechanism.has(joint),
             }
         });
-        Self { nodes, mass: mechanism.mass() }
+        Self { nodes, order: mechanism.order, mass: mechanism.mass() }
     }
 
     /// The joints of the floating robot, whose base is the right foot: all but the two on the ground.
-    pub(crate) fn floating_joints() -> impl DoubleEndedIterator<Item = Joint> {
-        Joint::ALL[Joint::FIRST_POWERED.index()..].iter().copied()
+    #[inline(always)]
+    pub(crate) fn floating_joints(&self) -> impl DoubleEndedIterator<Item = Joint> {
+        self.order.all()[Joint::FIRST_POWERED.index()..].iter().copied()
+    }
+
+    /// The joint whose link is the pelvis.
+    #[inline(always)]
+    pub fn pelvis(&self) -> Joint {
+        self.order.pelvis()
+    }
+
+    /// The joint whose link is the foot on `side`.
+    #[inline(always)]
+    pub fn foot(&self, side: Side) -> Joint {
+        self.order.foot(side)
+    }
+
+    /// The six joints of a leg: from the ankle up for the right one, from the hip down for the left one.
+    #[inline(always)]
+    pub fn leg(&self, side: Side) -> [Joint; 6] {
+        self.order.leg(side)
     }
 }
 

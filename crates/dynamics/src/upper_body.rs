@@ -1,15 +1,12 @@
 //! The upper body as one rigid body: legs can then move under it without recomputing its joints.
 
-use model::{Joint, JointVector, Side};
+use model::{Joint, JointOrder, JointVector};
 use nalgebra::{Isometry3, Vector3};
 
-use crate::inverse_kinematics::Leg;
 use crate::{Kinematics, Tree};
 
-/// The pelvis: carries legs and upper body.
-const PELVIS: Joint = Leg(Side::Right).end();
 /// Number of links from the right sole over the pelvis to the left sole; the upper body comes after them.
-const LEGS: usize = Leg(Side::Left).end().index() + 1;
+const LEGS: usize = JointOrder::UP_TO_LEFT_FOOT;
 
 /// Waist, trunk and arms as one rigid body, at fixed joint angles.
 #[derive(Clone, Copy, Debug)]
@@ -24,9 +21,9 @@ impl UpperBody {
     /// The upper body at these angles; those of the legs are not read.
     pub fn new(tree: &Tree, angles: &JointVector) -> Self {
         let mut kinematics = Kinematics::default();
-        kinematics.place(PELVIS, &Isometry3::identity());
+        kinematics.place(tree.pelvis(), &Isometry3::identity());
         kinematics.chain(tree, angles, LEGS..Joint::COUNT);
-        let (mass, moment) = kinematics.mass_and_moment(tree, Joint::ALL[LEGS..].iter().copied());
+        let (mass, moment) = kinematics.mass_and_moment(tree, tree.order.all()[LEGS..].iter().copied());
         Self { mass, moment }
     }
 }
@@ -41,8 +38,9 @@ impl Kinematics {
     /// Centre of mass of the robot (m): legs as computed by [`Kinematics::compute_legs`], with an upper body on them.
     #[inline]
     pub fn com_with(&self, tree: &Tree, upper: &UpperBody) -> Vector3<f64> {
-        let (_, legs) = self.mass_and_moment(tree, Joint::ALL[..LEGS].iter().copied());
-        let carried = self.origin[PELVIS] * upper.mass + self.rotation[PELVIS] * upper.moment;
+        let (_, legs) = self.mass_and_moment(tree, tree.order.all()[..LEGS].iter().copied());
+        let pelvis = tree.pelvis();
+        let carried = self.origin[pelvis] * upper.mass + self.rotation[pelvis] * upper.moment;
         (legs + carried) / tree.mass
     }
 

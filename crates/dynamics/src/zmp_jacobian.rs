@@ -109,7 +109,7 @@ impl ZmpJacobian {
     #[inline(always)]
     fn outward(&mut self, tree: &Tree) {
         let NewtonEuler { kinematics, links, .. } = &self.newton_euler;
-        for joint in Joint::ALL {
+        for &joint in tree.order.all() {
             let node = &tree.nodes[joint];
             self.velocity[joint] = match (node.parent, node.origin) {
                 (Some(parent), Some(_)) => {
@@ -133,7 +133,7 @@ impl ZmpJacobian {
     #[inline(always)]
     fn inward(&mut self, tree: &Tree, shift: &Shift) {
         let NewtonEuler { kinematics, links, wrench, .. } = &self.newton_euler;
-        for joint in Joint::ALL.into_iter().rev() {
+        for &joint in tree.order.all().iter().rev() {
             let subtree = self.subtrees[joint];
             let parent = tree.nodes[joint].parent;
             let carried = match parent {

@@ -18,7 +18,7 @@
 use std::fmt::Write;
 
 use model::{Body, Joint, Mechanism, Side};
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 use plant::PlantParameters;
 use quick_xml::escape::escape;
 
@@ -53,13 +53,13 @@ pub fn mjcf_text(mechanism: &Mechanism, parameters: &PlantParameters, period: f6
     out.line(format_args!(
         r#"<geom name="floor" type="plane" size="0 0 0.5" contype="1" conaffinity="0" condim="3" {friction} {CONTACT} material="floor" rgba="1 1 1 1"/>"#
     ));
-    body(&mut out, mechanism, parameters, Mechanism::foot(Side::Right), &friction);
+    body(&mut out, mechanism, parameters, Mechanism::RIGHT_FOOT, &friction);
     out.close("worldbody");
 
     out.open("actuator");
     for joint in Joint::ALL {
         let Some(motor) = mechanism.links[joint].motor else { continue };
-        let torque_max = motor.torque_per_volt() * motor.voltage_max;
+        let torque_max = motor.torque_max();
         let name = joint.name();
         out.line(format_args!(
             r#"<motor name="{name}" joint="{name}" ctrllimited="false" forcerange="{} {torque_max}"/>"#,
@@ -90,7 +90,7 @@ fn appearance(out: &mut Lines) {
 
 /// The body of a link that weighs something, with the joints that lead to it and all that it carries.
 fn body(out: &mut Lines, mechanism: &Mechanism, parameters: &PlantParameters, link: Joint, friction: &str) {
-    let root = Mechanism::foot(Side::Right);
+    let root = Mechanism::RIGHT_FOOT;
     let joints = joints_of(mechanism, link);
     let origin = |joint: &Joint| mechanism.links[*joint].origin;
     let place = if link == root { Vector3::zeros() } else { place_on_parent(mechanism, link) };
@@ -108,7 +108,7 @@ fn body(out: &mut Lines, mechanism: &Mechanism, parameters: &PlantParameters, li
         }
     }
     inertial(out, &mechanism.links[link].body);
-    if let Some(side) = Side::BOTH.into_iter().find(|side| Mechanism::foot(*side) == link) {
+    if let Some(side) = Side::BOTH.into_iter().find(|side| mechanism.foot(*side) == link) {
         foot(out, mechanism, side, friction);
     } else {
         appearance_of(out, mechanism, link);
@@ -160,8 +160,12 @@ fn hinge(out: &mut Lines, mechanism: &Mechanism, joint: Joint, place: Vector3<f6
 }
 
 fn inertial(out: &mut Lines, body: &Body) {
+    let turned = body.principal_axes.map_or_else(String::new, |axes| {
+        let turn = UnitQuaternion::from_rotation_matrix(&axes);
+        format!(r#" quat="{}""#, numbers(&[turn.w, turn.i, turn.j, turn.k]))
+    });
     out.line(format_args!(
-        r#"<inertial mass="{}" pos="{}" diaginertia="{}"/>"#,
+        r#"<inertial mass="{}" pos="{}"{turned} diaginertia="{}"/>"#,
         body.mass,
         numbers(body.com.as_slice()),
         numbers(body.inertia.as_slice())
@@ -209,7 +213,7 @@ fn payload(out: &mut Lines, parameters: &PlantParameters) {
     let payload = parameters.payload;
     if payload.mass > 0.0 {
         out.open(format_args!(r#"body name="payload" pos="{}""#, numbers(payload.at.as_slice())));
-        inertial(out, &Body { mass: payload.mass, com: Vector3::zeros(), inertia: Vector3::repeat(1e-9) });
+        inertial(out, &Body { mass: payload.mass, inertia: Vector3::repeat(1e-9), ..Body::NONE });
         out.line(r#"<geom type="sphere" size="0.05" rgba="0.7 0.4 0.2 1"/>"#);
         out.close("body");
     }

@@ -39,7 +39,7 @@ pub fn urdf(mechanism: &Mechanism) -> Robot {
 
 /// The joint whose link is the root.
 const fn root() -> Joint {
-    Mechanism::foot(Side::Right)
+    Mechanism::RIGHT_FOOT
 }
 
 /// Name of the link that a joint carries.
@@ -67,13 +67,13 @@ fn joint(mechanism: &Mechanism, joint: Joint) -> urdf_rs::Joint {
 /// Range and rate of a joint; as effort the torque of its motor at standstill and full voltage.
 fn limit(limits: Option<JointLimits>, motor: Option<Motor>) -> JointLimit {
     let (lower, upper, velocity) = limits.map_or((0.0, 0.0, 0.0), |l| (l.angle_min, l.angle_max, l.rate_max));
-    let effort = motor.map_or(0.0, |motor| motor.torque_per_volt() * motor.voltage_max);
+    let effort = motor.map_or(0.0, |motor| motor.torque_max());
     JointLimit { lower, upper, effort, velocity, ..Default::default() }
 }
 
 fn link(mechanism: &Mechanism, joint: Joint) -> Link {
     let body = mechanism.links[joint].body;
-    let foot = Side::BOTH.into_iter().find(|side| Mechanism::foot(*side) == joint);
+    let foot = Side::BOTH.into_iter().find(|side| mechanism.foot(*side) == joint);
     let (visual, collision) = match foot {
         // Only the soles collide: thighs and pelvis overlap at the hips, and a simulator would push them apart.
         Some(side) => {
@@ -94,11 +94,12 @@ fn link(mechanism: &Mechanism, joint: Joint) -> Link {
 }
 
 fn inertial(body: &Body) -> Inertial {
-    let [ixx, iyy, izz] = body.inertia.into();
+    let inertia = body.inertia_matrix();
+    let [ixx, iyy, izz] = inertia.diagonal().into();
     Inertial {
         origin: at(body.com),
         mass: Mass { value: body.mass },
-        inertia: Inertia { ixx, iyy, izz, ..Default::default() },
+        inertia: Inertia { ixx, iyy, izz, ixy: inertia.m12, ixz: inertia.m13, iyz: inertia.m23 },
     }
 }
 
@@ -181,7 +182,7 @@ mod tests {
     fn box_of_a_link_has_its_mass_and_moments() {
         // a uniform brick of 2 kg and sides 0.1, 0.2, 0.3 m
         let moments = [0.04 + 0.09, 0.01 + 0.09, 0.01 + 0.04].map(|squares| 2.0 / 12.0 * squares);
-        let brick = Body { mass: 2.0, com: Vector3::zeros(), inertia: moments.into() };
+        let brick = Body { mass: 2.0, com: Vector3::zeros(), inertia: moments.into(), ..Body::NONE };
         let Geometry::Box { size } = equivalent_box(&brick) else { panic!("not a box") };
         assert!((Vector3::from(size.0) - Vector3::new(0.1, 0.2, 0.3)).norm() < 1e-12, "{size:?}");
     }

@@ -5,7 +5,9 @@ mod support;
 
 use std::fs;
 
+use config::Config;
 use interchange::import::{Imported, NamedText, import};
+use model::Mechanism;
 
 use support::robots::{Allowed, is_symmetric, same_numbers, same_robot};
 use support::variants::{nameless, reversed, shuffled, turned};
@@ -84,7 +86,11 @@ fn allowed(name: &str) -> Allowed {
     }
 }
 
+/// What is imported can be loaded.
 fn read(urdf: &str, map: &str) -> Imported {
-    import(NamedText { text: urdf, file: "robot.urdf" }, Some(NamedText { text: map, file: "sole.toml" }))
-        .unwrap_or_else(|error| panic!("{error}"))
+    let imported =
+        import(NamedText { text: urdf, file: "robot.urdf" }, Some(NamedText { text: map, file: "sole.toml" }))
+            .unwrap_or_else(|error| panic!("{error}"));
+    Mechanism::from_toml(&imported.text, "mechanism.toml").unwrap_or_else(|errors| panic!("{errors}"));
+    imported
 }

@@ -3,7 +3,9 @@
 
 mod support;
 
+use config::Config;
 use interchange::import::{Imported, NamedText, import};
+use model::Mechanism;
 
 use support::Tree;
 use support::robots::{Allowed, is_symmetric, same_robot};
@@ -214,9 +216,11 @@ fn limits_matter_where_joints_are_used() {
 }
 
 #[test]
-fn odd_numbers_are_taken_as_given_and_told() {
+fn odd_numbers_are_taken_and_told() {
     let slim = walker().replace("izz=\"0.006\"", "izz=\"0.05\"");
-    told(&taken(&slim, ""), "the right thigh (1.5000 kg): principal moments");
+    told(&taken(&slim, ""), "were raised: thigh [6.000e-3, 6.000e-3, 5.000e-2] to [2.500e-2, 2.500e-2, 5.000e-2]");
+    let points = walker().replace("<inertia ", "<none ");
+    told(&taken(&points, ""), "were raised: pelvis [0.000e0, 0.000e0, 0.000e0] to");
     let half = walker().replace("lower=\"-0.1\" upper=\"2.2\"", "upper=\"2.2\"");
     told(&taken(&half, ""), "the URDF tells but one end of the range; the other one is 0: right_knee, left_knee");
     let late = walker().replace("lower=\"-0.1\" upper=\"2.2\"", "lower=\"0.1\" upper=\"2.2\"");
@@ -340,7 +344,15 @@ fn map_may_say_otherwise() {
     told(&taken(&walker(), map), "against it: the knees bend backward");
 }
 
+/// What is imported can be loaded.
 fn taken(urdf: &str, map: &str) -> Imported {
+    let imported = read(urdf, map);
+    Mechanism::from_toml(&imported.text, "mechanism.toml")
+        .unwrap_or_else(|errors| panic!("{errors}\n{}", imported.text));
+    imported
+}
+
+fn read(urdf: &str, map: &str) -> Imported {
     import(NamedText { text: urdf, file: "robot.urdf" }, Some(NamedText { text: map, file: "map.toml" }))
         .unwrap_or_else(|error| panic!("{error}"))
 }

@@ -6,6 +6,8 @@
 mod com_state;
 pub mod frame;
 mod joint;
+mod joint_order;
+mod leg_reach;
 mod mechanism;
 mod mechanism_file;
 mod mirror;
@@ -13,13 +15,17 @@ mod motion;
 mod per_joint;
 mod side;
 mod sole;
+mod urdf_source;
 
 pub use com_state::ComState;
 pub use frame::{GRAVITY, Wrench};
 pub use joint::Joint;
-pub use mechanism::{Body, JointLimits, Link, Mechanism, Motor};
+pub use joint_order::JointOrder;
+pub use leg_reach::LegReach;
+pub use mechanism::{Body, DcMotor, JointLimits, Link, Mechanism, Motor, TorqueSource};
 pub use mirror::{Mirror, Mirrored, partner};
 pub use motion::Motion;
 pub use per_joint::{JointVector, PerJoint};
 pub use side::Side;
 pub use sole::Sole;
+pub use urdf_source::{HeldJoint, UrdfJoint, UrdfSource};

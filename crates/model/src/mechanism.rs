@@ -5,17 +5,22 @@
 
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
-use crate::{Joint, PerJoint, Side, Sole};
+use crate::{Joint, JointOrder, PerJoint, Side, Sole, UrdfSource};
 
 /// The kinematic tree of the robot with its masses, limits and motors. Read-only once loaded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mechanism {
     /// Name of the robot, for people.
     pub name: String,
-    /// Each joint with the link that it carries; parents come before children.
+    /// Each joint with the link that it carries.
     pub links: PerJoint<Link>,
+    /// All joints, parents before their children: the foot, the right leg from the ankle up, the left leg from the hip
+    /// down, the waist, the arms.
+    pub order: JointOrder,
     /// The soles, alike on both feet.
     pub sole: Sole,
+    /// The URDF that it was imported from, if it was.
+    pub source: Option<UrdfSource>,
     /// A number that differs when anything physical about the mechanism differs; controller and plant compare it.
     pub fingerprint: u64,
 }
@@ -31,9 +36,9 @@ pub struct Link {
     pub origin: Vector3<f64>,
     /// Mass and inertia of the link; zero mass between joints that meet in one point.
     pub body: Body,
-    /// Range and rate limit of the joint; `None` for the unpowered joints.
+    /// Range and rate limit of the joint; `None` for the unpowered joints, and for those that the robot does not have.
     pub limits: Option<JointLimits>,
-    /// The motor of the joint; `None` for the unpowered joints.
+    /// The motor of the joint; `None` for the unpowered joints, and for those that the robot does not have.
     pub motor: Option<Motor>,
 }
 
@@ -44,13 +49,35 @@ pub struct Body {
     pub mass: f64,
     /// Centre of mass in the link's frame (m).
     pub com: Vector3<f64>,
-    /// Principal moments of inertia about the centre of mass, along the link's axes (kg·m²).
+    /// Principal moments of inertia about the centre of mass (kg·m²).
     pub inertia: Vector3<f64>,
+    /// Orientation of the principal axes: maps their coordinates to the link's. `None` where they are the link's axes.
+    pub principal_axes: Option<Rotation3<f64>>,
 }
 
 impl Body {
     /// The body of a massless link.
-    pub const NONE: Body = Body { mass: 0.0, com: Vector3::new(0.0, 0.0, 0.0), inertia: Vector3::new(0.0, 0.0, 0.0) };
+    pub const NONE: Body = Body {
+        mass: 0.0,
+        com: Vector3::new(0.0, 0.0, 0.0),
+        inertia: Vector3::new(0.0, 0.0, 0.0),
+        principal_axes: None,
+    };
+
+    /// Inertia about the centre of mass as a matrix, in the link's frame (kg·m²).
+    pub fn inertia_matrix(&self) -> Matrix3<f64> {
+        let principal = Matrix3::from_diagonal(&self.inertia);
+        self.principal_axes.map_or(principal, |axes| axes.matrix() * principal * axes.matrix().transpose())
+    }
+
+    /// Rotation of the principal axes, given that of the link: both map to the same frame.
+    #[inline(always)]
+    pub fn principal_rotation(&self, link: &Matrix3<f64>) -> Matrix3<f64> {
+        match &self.principal_axes {
+            None => *link,
+            Some(axes) => link * axes.matrix(),
+        }
+    }
 }
 
 /// Range and rate limit of a joint.
@@ -64,9 +91,18 @@ pub struct JointLimits {
     pub rate_max: f64,
 }
 
+/// What drives a joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motor {
+    /// A DC motor, whose torque is bounded by its voltage.
+    Dc(DcMotor),
+    /// A source of torque of which only the limit is known.
+    Torque(TorqueSource),
+}
+
 /// A brushed or brushless DC motor with its gear.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motor {
+pub struct DcMotor {
     /// Armature resistance `R` (Ω).
     pub resistance: f64,
     /// Torque constant `k_t` (N·m/A), equal to the back-EMF constant (V·s/rad).
@@ -79,20 +115,53 @@ pub struct Motor {
     pub voltage_max: f64,
 }
 
+/// A source of torque of which only the limit is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TorqueSource {
+    /// Largest torque at the joint, either way (N·m).
+    pub effort: f64,
+    /// Inertia of the rotor, seen at the joint (kg·m²).
+    pub armature: f64,
+}
+
 impl Motor {
     /// Reflected rotor inertia, on the joint's side of the gear (kg·m²).
     pub fn reflected_inertia(&self) -> f64 {
-        self.rotor_inertia * self.gear_ratio * self.gear_ratio
+        match self {
+            Motor::Dc(motor) => motor.rotor_inertia * motor.gear_ratio * motor.gear_ratio,
+            Motor::Torque(source) => source.armature,
+        }
     }
 
-    /// Torque at the joint for a voltage at standstill (N·m/V).
-    pub fn torque_per_volt(&self) -> f64 {
-        self.gear_ratio * self.torque_constant / self.resistance
+    /// Largest torque at the joint at standstill, either way (N·m).
+    pub fn torque_max(&self) -> f64 {
+        match self {
+            Motor::Dc(motor) => motor.torque_per_volt() * motor.voltage_max,
+            Motor::Torque(source) => source.effort,
+        }
     }
 
     /// Joint torque lost to back-EMF per joint rate at constant voltage (N·m·s/rad).
     pub fn back_emf_damping(&self) -> f64 {
-        self.torque_per_volt() * self.torque_constant * self.gear_ratio
+        match self {
+            Motor::Dc(motor) => motor.torque_per_volt() * motor.torque_constant * motor.gear_ratio,
+            Motor::Torque(_) => 0.0,
+        }
+    }
+
+    /// The DC motor, if it is one.
+    pub fn dc(&self) -> Option<&DcMotor> {
+        match self {
+            Motor::Dc(motor) => Some(motor),
+            Motor::Torque(_) => None,
+        }
+    }
+}
+
+impl DcMotor {
+    /// Torque at the joint for a voltage at standstill (N·m/V).
+    pub fn torque_per_volt(&self) -> f64 {
+        self.gear_ratio * self.torque_constant / self.resistance
     }
 }
 
@@ -105,20 +174,45 @@ impl Mechanism {
         self.links.0.iter().map(|link| link.body.mass).sum()
     }
 
+    /// The link whose bottom is the right sole.
+    pub const RIGHT_FOOT: Joint = Joint::FootPitch;
+
     /// The link whose bottom is the sole on `side`.
-    pub const fn foot(side: Side) -> Joint {
-        match side {
-            Side::Right => Joint::FootPitch,
-            Side::Left => Joint::LeftAnkleRoll,
-        }
+    pub const fn foot(&self, side: Side) -> Joint {
+        self.order.foot(side)
+    }
+
+    /// The six joints of a leg: from the ankle up for the right one, from the hip down for the left one.
+    pub fn leg(&self, side: Side) -> [Joint; 6] {
+        self.order.leg(side)
+    }
+
+    /// The joint whose link is the pelvis.
+    pub const fn pelvis(&self) -> Joint {
+        self.order.pelvis()
+    }
+
+    /// Whether a motor drives the joint: the robot has it.
+    pub fn has(&self, joint: Joint) -> bool {
+        self.links[joint].motor.is_some()
     }
 
     /// Position of the sole frame's origin (on the sole, under the ankle) in the frame of the foot link on `side` (m).
     pub fn sole_in_foot(&self, side: Side) -> Vector3<f64> {
         match side {
             Side::Right => Vector3::zeros(),
-            Side::Left => Vector3::new(0.0, 0.0, -self.sole.ankle_height),
+            // The left foot's frame is at its ankle joint, which is the mirror image of the right one.
+            Side::Left => {
+                let ankle = self.links[self.leg(Side::Right)[0]].origin;
+                Vector3::new(0.0 - ankle.x, ankle.y, -ankle.z)
+            }
         }
+    }
+
+    /// Distance between the middles of the feet of the robot standing straight (m).
+    pub fn foot_distance(&self) -> f64 {
+        let chain = Side::BOTH.into_iter().flat_map(|side| self.leg(side));
+        chain.map(|joint| self.links[joint].origin.y).sum::<f64>() + self.sole_in_foot(Side::Left).y
     }
 }
 
@@ -126,10 +220,5 @@ impl Link {
     /// Rotation of the link against its parent at a joint angle (rad): maps link coordinates to parent coordinates.
     pub fn rotation(&self, angle: f64) -> Rotation3<f64> {
         Rotation3::from_axis_angle(&self.axis, angle)
-    }
-
-    /// Inertia about the centre of mass as a matrix, in the link's frame (kg·m²).
-    pub fn inertia(&self) -> Matrix3<f64> {
-        Matrix3::from_diagonal(&self.body.inertia)
     }
 }

@@ -67,7 +67,7 @@ fn sixteen_mistakes_in_a_mechanism_file_are_reported_in_sixteen_lines() {
             "joint.right_ankle_pitch",
             "3.16",
             "-3.16",
-            "11: joint.right_ankle_pitch.mass_kg = -3.16: must lie between 0.0001 and 1000",
+            "11: joint.right_ankle_pitch.mass_kg = -3.16: must lie between 0.000001 and 1000",
         ),
         mistake(
             "joint.right_knee",
@@ -97,15 +97,16 @@ fn sixteen_mistakes_in_a_mechanism_file_are_reported_in_sixteen_lines() {
             "joint.right_hip_roll",
             "[0.0657, 0.0525, 0.0592]",
             "[0.0657, 0.0525, 0.1592]",
-            "17: joint.right_hip_roll.inertia_kg_m2 = [0.0657, 0.0525, 0.1592]: must be three principal moments, each \
-             between 0.0000000001 and 1000 and at most the sum of the other two",
+            "17: joint.right_hip_roll.inertia_kg_m2 = [0.0657, 0.0525, 0.1592]: must be three moments, and maybe the \
+             products xy, xz, yz: principal moments between 0.000000000001 and 1000, each at most the sum of the \
+             other two",
         ),
         mistake(
             "joint.left_hip_pitch",
             "\"left_hip_yaw\"",
             "\"left_elbow\"",
-            "10: joint.left_hip_pitch.parent = \"left_elbow\": must be \"left_hip_yaw\": the legs are one chain from \
-             foot to foot",
+            "10: joint.left_hip_pitch.parent = \"left_elbow\": must be \"right_hip_pitch\" or \"right_hip_yaw\" or \
+             \"right_hip_roll\" or \"left_hip_roll\" or \"left_hip_yaw\": the legs are one chain from foot to foot",
         ),
         mistake(
             "joint.left_hip_pitch",
@@ -144,7 +145,7 @@ fn sixteen_mistakes_in_a_mechanism_file_are_reported_in_sixteen_lines() {
             "number = 20",
             "number = 20\ncolour = \"red\"",
             "1: joint.left_elbow.colour = \"red\": unknown key; expected one of number, parent, axis, origin_m, \
-             mass_kg, com_m, inertia_kg_m2, range_deg, rate_max_deg_per_s, motor",
+             mass_kg, com_m, inertia_kg_m2, range_deg, rate_max_deg_per_s, effort_n_m, motor",
         ),
     ]);
 }

@@ -154,9 +154,11 @@ impl FeasibilityCheck {
             }
             feasibility.bound(Limit::JointRate(joint), rate, limits.rate_max);
             let Some(motor) = link.motor else { continue };
-            feasibility.bound(Limit::Torque(joint), torques[joint], motor.torque_per_volt() * motor.voltage_max);
-            let voltage = (torques[joint] + motor.back_emf_damping() * rate) / motor.torque_per_volt();
-            feasibility.bound(Limit::Voltage(joint), voltage, motor.voltage_max);
+            feasibility.bound(Limit::Torque(joint), torques[joint], motor.torque_max());
+            if let Some(dc) = motor.dc() {
+                let voltage = (torques[joint] + motor.back_emf_damping() * rate) / dc.torque_per_volt();
+                feasibility.bound(Limit::Voltage(joint), voltage, dc.voltage_max);
+            }
         }
     }
 

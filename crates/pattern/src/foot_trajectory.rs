@@ -1,7 +1,7 @@
 //! The foot trajectory: what the half-steps demand of the body at a knot, apart from the centre of mass.
 
-use dynamics::{Kinematics, Leg, UpperBody, atan2};
-use model::{Joint, JointVector, Mechanism, Side};
+use dynamics::{Kinematics, UpperBody, atan2};
+use model::JointVector;
 use nalgebra::{Vector2, Vector3};
 
 use crate::footprint::SolePose;
@@ -25,8 +25,6 @@ pub(crate) struct FootTrajectory {
 
 /// The slowest walk that the limits of a gait can permit.
 const SPEED_MIN: f64 = 0.05;
-
-const PELVIS: Joint = Leg(Side::Right).end();
 
 impl FootTrajectory {
     /// The trajectory from the present knot of a footstep plan.
@@ -113,18 +111,19 @@ impl FootTrajectory {
     ///
     /// * `com` – projection of the centre of mass in the walk frame (m)
     pub(crate) fn task(&self, model: &PatternModel, com: Vector2<f64>) -> WholeBodyTask {
+        let pelvis = model.tree.pelvis();
         let walk = &self.footsteps.walk;
         let progress = walk.half_step().progress;
         let nominal = walk.table().angles_at(progress);
         let modified = nominal + walk.offsets_at(progress);
-        let modified = Kinematics::fixed_base_up_to(&model.tree, &modified, Mechanism::foot(Side::Left));
-        let pelvis_ahead = modified.rotation[PELVIS].column(0).into_owned();
+        let modified = Kinematics::fixed_base_up_to_left_foot(&model.tree, &modified);
+        let pelvis_ahead = modified.rotation[pelvis].column(0).into_owned();
         let mut swing_sole = self.swing.at(progress, &SolePose::of_swing_foot(&model.mechanism, &modified));
         let [offset, ..] = self.adjustment.at(progress);
         swing_sole.position += Vector3::new(offset.x, offset.y, 0.0);
         WholeBodyTask {
             com: self.footsteps.feet.footprint.point_to_support(com),
-            hip_height: Kinematics::fixed_base_up_to(&model.tree, &nominal, PELVIS).origin[PELVIS].z
+            hip_height: Kinematics::fixed_base_up_to_pelvis(&model.tree, &nominal).origin[pelvis].z
                 - self.hips.lowered(progress),
             pelvis_yaw: atan2(pelvis_ahead.y, pelvis_ahead.x),
             swing_sole,

@@ -3,7 +3,6 @@
 use dynamics::Kinematics;
 use gait::{RangeCheck, Walk};
 use interface::{Command, GaitChange, Verdict};
-use model::{Joint, Mechanism, Side};
 use nalgebra::{Vector2, Vector3};
 
 use crate::footprint::{Footprint, SolePose, rotation_about_z};
@@ -155,13 +154,13 @@ impl FootstepPlan {
     /// The swing sole of the modified half-step at a progress.
     pub(crate) fn swing_sole(&self, model: &PatternModel, progress: f64) -> SolePose {
         let angles = self.walk.angles_at(progress);
-        let kinematics = Kinematics::fixed_base_up_to(&model.tree, &angles, Mechanism::foot(Side::Left));
+        let kinematics = Kinematics::fixed_base_up_to_left_foot(&model.tree, &angles);
         SolePose::of_swing_foot(&model.mechanism, &kinematics)
     }
 }
 
 /// The other sole beside the support sole, both turned apart from the heading of the hips by half of `yaw` (rad).
 fn beside_support(model: &PatternModel, yaw: f64) -> SolePose {
-    let width = model.mechanism.links[Joint::LeftHipRoll].origin.y;
+    let width = model.mechanism.foot_distance();
     SolePose { position: rotation_about_z(yaw / 2.0) * Vector3::new(0.0, width, 0.0), yaw }
 }

@@ -1,8 +1,8 @@
 //! The constants of the generator: the robot, its nominal half-step, and the gains that follow from both.
 
-use dynamics::{Kinematics, Leg, LegSolver, Tree};
+use dynamics::{Kinematics, LegSolver, Tree};
 use gait::NominalTable;
-use model::{Link, Mechanism, Mirror, Side};
+use model::{LegReach, Link, Mechanism, Mirror};
 use nalgebra::Point3;
 
 use crate::knot::KNOT;
@@ -28,6 +28,8 @@ pub(crate) struct PatternModel {
     pub legs: LegSolver,
     /// The left–right symmetry.
     pub mirror: Mirror,
+    /// Hips and ankles as points.
+    pub reach: LegReach,
     /// Lengths and times that suit the size of the robot.
     pub proportions: PatternProportions,
     /// The part of the nominal half-step's ZMP that the cart-table model leaves out.
@@ -52,6 +54,7 @@ impl PatternModel {
             mechanism: mechanism.clone(),
             mirror: *mirror,
             legs: LegSolver::new(mechanism),
+            reach: LegReach::of(mechanism),
             proportions: PatternProportions::of(mechanism),
             com_per_pelvis: com_per_pelvis(mechanism, &tree, table),
             tree,
@@ -64,7 +67,7 @@ impl PatternModel {
 /// alike.
 fn com_per_pelvis(mechanism: &Mechanism, tree: &Tree, table: &NominalTable) -> f64 {
     let kinematics = Kinematics::fixed_base(tree, &table.at(0.0).angles);
-    let pelvis = kinematics.origin[Leg(Side::Right).end()].z;
+    let pelvis = kinematics.origin[tree.pelvis()].z;
     let moved = mechanism.links.iter().map(|(link, Link { body, .. })| {
         let com = kinematics.link_to_world(link) * Point3::from(body.com);
         body.mass * (com.z / pelvis).min(1.0)

@@ -3,7 +3,7 @@
 //! Those of the legs and soles follow from the mechanism. The others were found for the paper's robot, with legs of
 //! 0.86 m from hip to ankle and hips 0.19 m apart; a robot of another size needs others.
 
-use model::{Joint, Mechanism};
+use model::{LegReach, Mechanism};
 use nalgebra::Vector2;
 
 /// Lengths and times that suit the size of the robot.
@@ -65,8 +65,7 @@ const SLOPE_TIME_CONSTANT: f64 = 0.25;
 impl PatternProportions {
     /// The proportions of a robot.
     pub(crate) fn of(mechanism: &Mechanism) -> Self {
-        let length = |joint: Joint| mechanism.links[joint].origin.norm();
-        let leg = length(Joint::RightKnee) + length(Joint::RightHipPitch);
+        let leg = LegReach::of(mechanism).length();
         Self {
             planned_leg_length_max: PLANNED_LEG_SHARE_MAX * leg,
             leg_length_max: LEG_SHARE_MAX * leg,

@@ -4,7 +4,7 @@
 //! component of motion of the support change, in the front foot; both soles keep their places, by leg inverse
 //! kinematics.
 
-use dynamics::{Kinematics, Leg, Tree, solve_leg};
+use dynamics::{Kinematics, Tree, solve_leg};
 use model::{Joint, Motion, Side};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
@@ -21,18 +21,15 @@ pub(crate) struct StopInStride {
     motion: Motion,
 }
 
-const PELVIS: Joint = Leg(Side::Right).end();
-const REAR_FOOT: Joint = Leg(Side::Left).end();
-
 impl StopInStride {
     /// Begins with a motion in which both soles are on the ground and at rest.
     ///
     /// * `pendulum_rate` – `ω` of the inverted pendulum (rad/s)
     pub(crate) fn begin(tree: &Tree, motion: &Motion, pendulum_rate: f64) -> Self {
         let kinematics = Kinematics::fixed_base(tree, &motion.angles);
-        let pelvis = kinematics.link_to_world(PELVIS);
+        let pelvis = kinematics.link_to_world(tree.pelvis());
         let (mut pelvis_rate, mut pelvis_velocity) = (Vector3::zeros(), Vector3::zeros());
-        for joint in Leg(Side::Right).joints() {
+        for joint in tree.leg(Side::Right) {
             let spin = kinematics.axis[joint] * motion.rates[joint];
             pelvis_rate += spin;
             pelvis_velocity += spin.cross(&(pelvis.translation.vector - kinematics.origin[joint]));
@@ -42,7 +39,7 @@ impl StopInStride {
             pelvis,
             pelvis_rate,
             pelvis_velocity,
-            rear_foot: kinematics.link_to_world(REAR_FOOT),
+            rear_foot: kinematics.link_to_world(tree.foot(Side::Left)),
             motion: *motion,
         }
     }
@@ -62,8 +59,8 @@ impl StopInStride {
         for joint in Joint::ALL.into_iter().filter(|joint| !joint.is_in_leg()) {
             angles[joint] += before.rates[joint] * remains * dt;
         }
-        let reached = solve_leg(tree, Leg(Side::Right), &pelvis, &mut angles)
-            .and_then(|()| solve_leg(tree, Leg(Side::Left), &self.rear_foot, &mut angles));
+        let reached = solve_leg(tree, Side::Right, &pelvis, &mut angles)
+            .and_then(|()| solve_leg(tree, Side::Left, &self.rear_foot, &mut angles));
         match reached {
             Ok(()) => {
                 let rates = (angles - before.angles) * (1.0 / dt);

@@ -1,6 +1,6 @@
 //! Whole-body inverse kinematics: the joint angles that put centre of mass, pelvis and feet where a task demands.
 
-use dynamics::{Kinematics, Leg, Unreachable, UpperBody};
+use dynamics::{Kinematics, Unreachable, UpperBody};
 use model::{Joint, JointVector, Mirrored, Side};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2, Vector3};
 
@@ -12,7 +12,7 @@ use crate::pattern_model::PatternModel;
 pub(crate) struct WholeBodyTask {
     /// Projection of the centre of mass (m).
     pub com: Vector2<f64>,
-    /// Height of the hip joints (m).
+    /// Height of the pelvis link's origin (m).
     pub hip_height: f64,
     /// Heading of the pelvis, which is level (rad).
     pub pelvis_yaw: f64,
@@ -38,7 +38,6 @@ pub(crate) struct WholeBodyIk {
     hip_changes: [Vector2<f64>; 2],
 }
 
-const PELVIS: Joint = Leg(Side::Right).end();
 /// Rounds of correcting the pelvis at most; two are usual.
 const ROUNDS_MAX: usize = 6;
 /// Error of the centre of mass at which one more correction is enough (m). A correction leaves about 3 % of an error,
@@ -49,7 +48,7 @@ impl WholeBodyIk {
     /// Starts from a posture in support coordinates.
     pub(crate) fn new(model: &PatternModel, angles: &JointVector) -> Self {
         let kinematics = Kinematics::fixed_base(&model.tree, angles);
-        let hip_from_com = kinematics.origin[PELVIS].xy() - kinematics.com(&model.tree).xy();
+        let hip_from_com = kinematics.origin[model.tree.pelvis()].xy() - kinematics.com(&model.tree).xy();
         Self {
             angles: *angles,
             kinematics,
@@ -80,12 +79,12 @@ impl WholeBodyIk {
 
         let [change, before] = self.hip_changes;
         let mut hip = task.com + self.hip_from_com + change * 2.0 - before;
-        let hip_height = within_reach(model, task.hip_height, hip, &heading, &foot.translation.vector);
+        let hip_height = within_reach(model, task.hip_height, hip, &heading, &foot);
         let mut is_near = false;
         for _ in 0..ROUNDS_MAX {
             let pelvis = Isometry3::from_parts(Translation3::new(hip.x, hip.y, hip_height), heading);
-            legs.solve(tree, Leg(Side::Right), &pelvis, &Isometry3::identity(), &mut angles)?;
-            legs.solve(tree, Leg(Side::Left), &pelvis, &foot, &mut angles)?;
+            legs.solve(tree, Side::Right, &pelvis, &Isometry3::identity(), &mut angles)?;
+            legs.solve(tree, Side::Left, &pelvis, &foot, &mut angles)?;
             if is_near {
                 break;
             }
@@ -109,26 +108,28 @@ impl WholeBodyIk {
     }
 }
 
-/// The height of the hips, lowered where a leg would be too short (m).
+/// The height of the pelvis, lowered where a leg would be too short (m).
 ///
-/// * `hip` – the support leg's hip
+/// * `pelvis` – origin of the pelvis link
 /// * `heading` – of the pelvis
-/// * `swing_ankle` – where the ankle of the other leg is
+/// * `swing_foot` – pose of the other foot
 fn within_reach(
     model: &PatternModel,
     height: f64,
-    hip: Vector2<f64>,
+    pelvis: Vector2<f64>,
     heading: &UnitQuaternion<f64>,
-    swing_ankle: &Vector3<f64>,
+    swing_foot: &Isometry3<f64>,
 ) -> f64 {
     let (leg_max, rounding) = (model.proportions.leg_length_max, model.proportions.leg_limit_rounding);
-    let reach = |hip: Vector2<f64>, ankle: &Vector3<f64>| {
-        ankle.z + (leg_max * leg_max - (hip - ankle.xy()).norm_squared()).max(0.0).sqrt()
+    let reach = |side: Side, ankle: &Vector3<f64>| {
+        let hip = heading * model.reach.hips_in_pelvis[side.index()];
+        let apart = pelvis + hip.xy() - ankle.xy();
+        ankle.z + (leg_max * leg_max - apart.norm_squared()).max(0.0).sqrt() - hip.z
     };
-    let support_ankle = Vector3::z() * model.mechanism.sole.ankle_height;
-    let swing_hip = hip + (heading * model.mechanism.links[Joint::LeftHipRoll].origin).xy();
-    let over_support = soft_min(height, reach(hip, &support_ankle), rounding);
-    soft_min(over_support, reach(swing_hip, swing_ankle), rounding)
+    let [support_ankle, swing_ankle] = model.reach.ankles_in_foot;
+    let swing_ankle = swing_foot.translation.vector + swing_foot.rotation * swing_ankle;
+    let over_support = soft_min(height, reach(Side::Right, &support_ankle), rounding);
+    soft_min(over_support, reach(Side::Left, &swing_ankle), rounding)
 }
 
 /// The smaller of two lengths (m), twice continuously differentiable: rounded where they differ by less than

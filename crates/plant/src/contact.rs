@@ -87,7 +87,7 @@ impl GroundContact {
 
 impl FootContact {
     fn new(mechanism: &Mechanism, side: Side) -> Self {
-        let link = Mechanism::foot(side);
+        let link = mechanism.foot(side);
         let offset = mechanism.sole_in_foot(side);
         Self {
             link,

@@ -15,8 +15,8 @@ pub fn with_mass_error(mechanism: &Mechanism, error: f64, seed: u64) -> Mechanis
     let mut factor = || 1.0 + error * random.random_range(-1.0..=1.0);
     let mut mechanism = mechanism.clone();
     for link in &mut mechanism.links.0 {
-        let Body { mass, com, inertia } = link.body;
-        link.body = Body { mass: mass * factor(), com, inertia: inertia * factor() };
+        let Body { mass, inertia, .. } = link.body;
+        link.body = Body { mass: mass * factor(), inertia: inertia * factor(), ..link.body };
     }
     mechanism
 }

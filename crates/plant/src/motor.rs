@@ -74,7 +74,7 @@ impl Drive {
 
             // The drive compensates the back-EMF as far as its voltage goes.
             let back_emf_torque = motor.back_emf_damping() * rate;
-            let torque_max = motor.torque_per_volt() * motor.voltage_max;
+            let torque_max = motor.torque_max();
             let driven = desired + back_emf_torque;
             let (torque, electrical) = if driven.abs() <= torque_max {
                 (desired, step * servo.damping + step * step * servo.stiffness)
@@ -91,7 +91,9 @@ impl Drive {
     /// Motor currents (A) that yield these motor torques at the joints (N·m).
     pub fn currents(&self, torques: &JointVector) -> JointVector {
         PerJoint::from_fn(|joint| {
-            self.motors[joint].map_or(0.0, |motor| torques[joint] / (motor.gear_ratio * motor.torque_constant))
+            // The current of a mere source of torque is unknown.
+            let dc = self.motors[joint].as_ref().and_then(Motor::dc);
+            dc.map_or(0.0, |motor| torques[joint] / (motor.gear_ratio * motor.torque_constant))
         })
     }
 }

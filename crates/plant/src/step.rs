@@ -139,7 +139,7 @@ impl Plant {
         let floor = |place| self.parameters.unevenness.at(place, self.seed);
         let mut loads = Loads::default();
         for side in Side::BOTH {
-            let motion = foot_motion(&self.body, side);
+            let motion = foot_motion(&self.body, self.mechanism.foot(side));
             let foot = &mut self.contact.feet[side.index()];
             loads.add(*foot.forces_at_step_end(&motion, &base, floor, &self.parameters.contact, step));
         }
@@ -158,7 +158,7 @@ impl Plant {
         let accelerations = self.body.accelerations(&self.tree, &drive.torques, &drive.armature, loads.as_slice());
         self.ground = Side::BOTH.map(|side| {
             let foot = &self.contact.feet[side.index()];
-            foot.resolve(&self.body.link_acceleration(Mechanism::foot(side)))
+            foot.resolve(&self.body.link_acceleration(self.mechanism.foot(side)))
         });
         self.motor_torques = drive.resolve(&accelerations.joints);
         self.robot.integrate(&accelerations, step);
@@ -201,8 +201,7 @@ impl Plant {
     }
 }
 
-fn foot_motion(body: &ArticulatedBody, side: Side) -> FootMotion {
-    let link = Mechanism::foot(side);
+fn foot_motion(body: &ArticulatedBody, link: Joint) -> FootMotion {
     FootMotion {
         rotation: body.kinematics.rotation[link],
         origin: body.kinematics.origin[link],

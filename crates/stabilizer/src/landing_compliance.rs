@@ -4,7 +4,7 @@
 //! 2010, "Biped walking stabilization based on linear inverted pendulum tracking", section IV), and returns to the
 //! planned height while the robot walks on. Expected forces change nothing.
 
-use dynamics::{Kinematics, Leg, LegSolver, Tree};
+use dynamics::{Kinematics, LegSolver, Tree};
 use model::{JointVector, Mechanism, Mirror, Mirrored, Motion, Side};
 use nalgebra::{Isometry3, Translation3};
 
@@ -81,13 +81,13 @@ impl LandingCompliance {
         if self.lifts.iter().all(|lift| lift.abs() < LIFT_MIN) {
             return Some(JointVector::ZERO);
         }
-        let pelvis = kinematics.link_to_world(Leg(Side::Right).end());
-        let feet = Side::BOTH.map(|side| kinematics.link_to_world(Mechanism::foot(side)));
+        let pelvis = kinematics.link_to_world(tree.pelvis());
+        let feet = Side::BOTH.map(|side| kinematics.link_to_world(tree.foot(side)));
         let raised = |foot: &Isometry3<f64>, lift: f64| Translation3::new(0.0, 0.0, lift) * foot;
         let mut angles = *planned;
         for (side, lift) in Side::BOTH.into_iter().zip(self.lifts) {
             let foot = raised(&feet[side.index()], lift);
-            self.legs.solve(tree, Leg(side), &pelvis, &foot, &mut angles).ok()?;
+            self.legs.solve(tree, side, &pelvis, &foot, &mut angles).ok()?;
         }
         Some(angles - *planned)
     }

@@ -17,6 +17,9 @@ pub(crate) fn swing_arms(mechanism: &Mechanism, parameters: &SynthesisParameters
         (Joint::RightElbow, bent),
         (Joint::LeftElbow, bent),
     ] {
+        if !mechanism.has(joint) {
+            continue;
+        }
         let Jet { value, rate, acceleration } = lifted * lift(mechanism, joint);
         motion.angles[joint] = value;
         motion.rates[joint] = rate;

@@ -41,6 +41,9 @@ pub enum SynthesisError {
         leg = match side { Side::Right => "right", Side::Left => "left" }
     )]
     LegUnreachable { row: usize, last: usize, side: Side, residual: f64 },
+    /// The trunk is to balance a robot that has no waist.
+    #[error("the robot has no waist that pitches and rolls: balance it by its pelvis")]
+    NoWaist,
     /// A joint would leave its range.
     #[error(
         "row {row} of {last}: joint {number} ({name}) would be at {value:.2}°; its range is {min:.2}° to {max:.2}°",
@@ -57,8 +60,8 @@ pub enum SynthesisError {
     RateTooHigh { row: usize, last: usize, joint: Joint, value: f64, limit: f64 },
     /// The iteration for the trunk motion does not converge.
     #[error(
-        "no trunk motion found that balances these legs: \
-         after {iterations} iterations it still changes by {change:.1e} rad"
+        "no motion of trunk or pelvis found that balances these legs: \
+         after {iterations} iterations it still changes by {change:.1e} rad or m"
     )]
     NotConverged { iterations: usize, change: f64 },
     /// The trunk motion leaves the ZMP too far from O.

@@ -75,6 +75,21 @@ impl Jet {
 }
 
 impl PointMotion {
+    pub(crate) const AT_REST: Self = Self {
+        position: Vector3::new(0.0, 0.0, 0.0),
+        velocity: Vector3::new(0.0, 0.0, 0.0),
+        acceleration: Vector3::new(0.0, 0.0, 0.0),
+    };
+
+    /// The sum of two motions.
+    pub(crate) fn plus(&self, other: &Self) -> Self {
+        Self {
+            position: self.position + other.position,
+            velocity: self.velocity + other.velocity,
+            acceleration: self.acceleration + other.acceleration,
+        }
+    }
+
     pub(crate) fn new(x: Jet, y: Jet, z: Jet) -> Self {
         Self {
             position: Vector3::new(x.value, y.value, z.value),

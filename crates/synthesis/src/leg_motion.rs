@@ -1,7 +1,7 @@
 //! Angles, rates and accelerations of a leg whose ends stay parallel to the world.
 
-use dynamics::{Kinematics, Leg, Tree, Unreachable, solve_leg};
-use model::{JointVector, Mechanism, Motion, Side};
+use dynamics::{Kinematics, Tree, Unreachable, solve_leg};
+use model::{Joint, JointVector, Mechanism, Motion, Side};
 use nalgebra::{Isometry3, Matrix6, Vector3, Vector6};
 
 /// Pitch angles of the first guess, from the foot up: shank ahead, thigh back, pelvis level (rad).
@@ -13,7 +13,7 @@ pub(crate) fn first_guess(mechanism: &Mechanism) -> JointVector {
     for side in Side::BOTH {
         // From the pelvis down each rotation is reversed; the order of the bends is the same either way.
         let direction = if side == Side::Right { 1.0 } else { -1.0 };
-        let pitches = Leg(side).joints().into_iter().filter(|&joint| mechanism.links[joint].axis.y.abs() > 0.5);
+        let pitches = mechanism.leg(side).into_iter().filter(|&joint| mechanism.links[joint].axis.y.abs() > 0.5);
         for (joint, bend) in pitches.zip(FIRST_BEND) {
             angles[joint] = direction * bend * mechanism.links[joint].axis.y.signum();
         }
@@ -33,17 +33,18 @@ pub(crate) struct LegEnd {
 }
 
 /// Writes the motion of one leg into `motion`, whose angles are the first guess.
-pub(crate) fn move_leg(tree: &Tree, leg: Leg, end: &LegEnd, motion: &mut Motion) -> Result<(), Unreachable> {
+pub(crate) fn move_leg(tree: &Tree, leg: Side, end: &LegEnd, motion: &mut Motion) -> Result<(), Unreachable> {
     let target = Isometry3::from(end.position);
     solve_leg(tree, leg, &target, &mut motion.angles)?;
 
     let kinematics = Kinematics::fixed_base(tree, &motion.angles);
-    let jacobian = jacobian(&kinematics, leg).lu();
+    let joints = tree.leg(leg);
+    let jacobian = jacobian(&kinematics, &joints).lu();
     let stretched = Unreachable { residual: 0.0 };
     let rates = jacobian.solve(&spatial(end.velocity, Vector3::zeros())).ok_or(stretched)?;
-    let drift = acceleration_without_drive(&kinematics, leg, &rates);
+    let drift = acceleration_without_drive(&kinematics, &joints, &rates);
     let accelerations = jacobian.solve(&(spatial(end.acceleration, Vector3::zeros()) - drift)).ok_or(stretched)?;
-    for (index, joint) in leg.joints().into_iter().enumerate() {
+    for (index, joint) in joints.into_iter().enumerate() {
         motion.rates[joint] = rates[index];
         motion.accelerations[joint] = accelerations[index];
     }
@@ -51,19 +52,19 @@ pub(crate) fn move_leg(tree: &Tree, leg: Leg, end: &LegEnd, motion: &mut Motion)
 }
 
 /// The Jacobian: linear and angular velocity of the leg's end per joint rate, in world axes.
-fn jacobian(kinematics: &Kinematics, leg: Leg) -> Matrix6<f64> {
-    let end = kinematics.origin[leg.end()];
-    Matrix6::from_columns(&leg.joints().map(|joint| {
+fn jacobian(kinematics: &Kinematics, joints: &[Joint; 6]) -> Matrix6<f64> {
+    let end = kinematics.origin[joints[5]];
+    Matrix6::from_columns(&joints.map(|joint| {
         let axis = kinematics.axis[joint];
         spatial(axis.cross(&(end - kinematics.origin[joint])), axis)
     }))
 }
 
 /// Linear and angular acceleration of the leg's end at the given rates when no joint accelerates: J̇·q̇.
-fn acceleration_without_drive(kinematics: &Kinematics, leg: Leg, rates: &Vector6<f64>) -> Vector6<f64> {
+fn acceleration_without_drive(kinematics: &Kinematics, joints: &[Joint; 6], rates: &Vector6<f64>) -> Vector6<f64> {
     let (mut rate, mut angular, mut linear) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
-    let mut origin = kinematics.origin[leg.joints()[0]];
-    for (joint, &joint_rate) in leg.joints().into_iter().zip(rates.iter()) {
+    let mut origin = kinematics.origin[joints[0]];
+    for (joint, &joint_rate) in joints.iter().copied().zip(rates.iter()) {
         let arm = kinematics.origin[joint] - origin;
         linear += angular.cross(&arm) + rate.cross(&rate.cross(&arm));
         origin = kinematics.origin[joint];

@@ -3,7 +3,7 @@
 //! Pelvis and feet stay parallel to the world, so each is a moving point, expressed in support coordinates. The end is
 //! the mirror image of the start in position and velocity, and the swing foot starts and lands at rest: no impact.
 
-use model::{Joint, Mechanism};
+use model::Mechanism;
 
 use crate::jet::{Jet, PointMotion};
 
@@ -16,7 +16,7 @@ pub(crate) trait LegPath {
     fn swing_sole(&self, progress: Jet) -> PointMotion;
 }
 
-/// Distance between the hip joints, and between the feet side by side (m).
+/// Distance between the feet side by side, and between the hips above them (m).
 pub(crate) fn hip_distance(mechanism: &Mechanism) -> f64 {
-    mechanism.links[Joint::LeftHipRoll].origin.y
+    mechanism.foot_distance()
 }

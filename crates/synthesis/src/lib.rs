@@ -2,7 +2,8 @@
 //!
 //! Vukobratović's semi-inverse method: the legs are prescribed, the trunk is found such that the ground reaction stays
 //! in O. A [`LegPattern`] prescribes the motion of pelvis and swing foot, inverse kinematics yields the leg angles, and
-//! the two trunk joints follow from Mx = My = 0 about O at every instant, with an end that mirrors the start.
+//! the two trunk joints follow from Mx = My = 0 about O at every instant, with an end that mirrors the start. A
+//! robot without a waist shifts its pelvis instead.
 //!
 //! Every number is the same on every machine: no function of the system's mathematical library enters the table.
 
@@ -16,6 +17,7 @@ mod leg_path;
 mod leg_pattern;
 mod limbs;
 mod parameters;
+mod pelvis_balance;
 mod pendulum_path;
 mod recorded_path;
 mod semi_inverse;
@@ -26,6 +28,6 @@ mod synthesize;
 pub use error::SynthesisError;
 pub use gait_recording::{GaitRecording, GaitRecordingError};
 pub use leg_pattern::LegPattern;
-pub use parameters::SynthesisParameters;
+pub use parameters::{Balance, SynthesisParameters};
 pub use stick_figure::{StickArm, StickFigure, StickLeg};
 pub use synthesize::{Synthesis, SynthesisReport, synthesize};

@@ -1,72 +1,134 @@
 //! The prescribed part of the half-step: both legs and the arms.
 
-use dynamics::{Leg, Tree};
-use model::{Joint, Mechanism, Motion, Side};
+use dynamics::Tree;
+use model::{JointVector, LegReach, Mechanism, Motion, Side};
 use nalgebra::Vector3;
 
 use crate::arms::swing_arms;
-use crate::jet::Jet;
+use crate::jet::{Jet, PointMotion};
 use crate::leg_motion::{LegEnd, first_guess, move_leg};
-use crate::leg_path::{LegPath, hip_distance};
+use crate::leg_path::LegPath;
 use crate::{SynthesisError, SynthesisParameters};
 
-/// The motion of legs and arms at `points_per_interval` instants of each interval and at the end; the trunk straight
-/// and at rest.
-///
-/// # Errors
-/// A leg is too short, or inverse kinematics finds no angles.
-pub(crate) fn move_limbs(
-    mechanism: &Mechanism,
-    tree: &Tree,
-    path: &dyn LegPath,
-    parameters: &SynthesisParameters,
+/// Legs and arms over the half-step, at `points_per_interval` instants of each interval and at the end.
+pub(crate) struct Limbs<'a> {
+    mechanism: &'a Mechanism,
+    tree: &'a Tree,
+    path: &'a dyn LegPath,
+    parameters: &'a SynthesisParameters,
     points_per_interval: usize,
-) -> Result<Vec<(Jet, Motion)>, SynthesisError> {
-    let to_left_hip = Vector3::y() * (hip_distance(mechanism) / 2.0);
-    let to_ankle = -mechanism.sole_in_foot(Side::Left);
-    let last_point = parameters.intervals * points_per_interval;
-    let mut angles = first_guess(mechanism);
-    let mut points = Vec::with_capacity(last_point + 1);
-    for point in 0..=last_point {
-        let progress =
-            Jet { value: point as f64 / last_point as f64, rate: 1.0 / parameters.duration, acceleration: 0.0 };
-        let (pelvis, sole) = (path.pelvis(progress), path.swing_sole(progress));
-        let (right_hip, left_hip) = (pelvis.position - to_left_hip, pelvis.position + to_left_hip);
-        let (right_ankle, left_ankle) = (to_ankle, sole.position + to_ankle);
-        for (side, reach) in [(Side::Right, right_hip - right_ankle), (Side::Left, left_hip - left_ankle)] {
-            let (distance, length) = (reach.norm(), leg_length(mechanism));
-            if distance >= length {
-                let (row, last) = (point / points_per_interval, parameters.intervals);
-                return Err(SynthesisError::LegTooShort { row, last, side, distance, length });
-            }
-        }
+    reach: LegReach,
+    /// Middle between the hips, in the pelvis link's frame (m).
+    middle_in_pelvis: Vector3<f64>,
+    /// Origin of the left foot's link over its sole (m).
+    to_left_foot: Vector3<f64>,
+}
 
-        // Inverse kinematics starts from the angles of the instant before.
-        let mut motion = Motion::at_rest(angles);
+impl<'a> Limbs<'a> {
+    /// The limbs of a robot whose pelvis and swing foot move on a path.
+    pub(crate) fn new(
+        mechanism: &'a Mechanism,
+        tree: &'a Tree,
+        path: &'a dyn LegPath,
+        parameters: &'a SynthesisParameters,
+        points_per_interval: usize,
+    ) -> Self {
+        let reach = LegReach::of(mechanism);
+        let [right, left] = reach.hips_in_pelvis;
+        Self {
+            mechanism,
+            tree,
+            path,
+            parameters,
+            points_per_interval,
+            middle_in_pelvis: right + (left - right) / 2.0,
+            to_left_foot: -mechanism.sole_in_foot(Side::Left),
+            reach,
+        }
+    }
+
+    /// The number of the last point.
+    pub(crate) fn last_point(&self) -> usize {
+        self.parameters.intervals * self.points_per_interval
+    }
+
+    /// The progress at a point.
+    pub(crate) fn progress(&self, point: usize) -> Jet {
+        Jet { value: point as f64 / self.last_point() as f64, rate: 1.0 / self.parameters.duration, acceleration: 0.0 }
+    }
+
+    /// Both knees bent, from which inverse kinematics begins at the first point (rad).
+    pub(crate) fn first_guess(&self) -> JointVector {
+        first_guess(self.mechanism)
+    }
+
+    /// The motion at every point; waist straight and at rest.
+    ///
+    /// * `shift` – of the pelvis off its path
+    ///
+    /// # Errors
+    /// A leg is too short, or inverse kinematics finds no angles.
+    pub(crate) fn motions(&self, shift: impl Fn(Jet) -> PointMotion) -> Result<Vec<(Jet, Motion)>, SynthesisError> {
+        let mut angles = self.first_guess();
+        (0..=self.last_point())
+            .map(|point| {
+                let progress = self.progress(point);
+                // Inverse kinematics starts from the angles of the instant before.
+                let motion = self.motion(point, &shift(progress), &angles)?;
+                angles = motion.angles;
+                Ok((progress, motion))
+            })
+            .collect()
+    }
+
+    /// The motion at a point.
+    ///
+    /// * `shift` – of the pelvis off its path
+    /// * `guess` – angles near the solution (rad)
+    pub(crate) fn motion(
+        &self,
+        point: usize,
+        shift: &PointMotion,
+        guess: &JointVector,
+    ) -> Result<Motion, SynthesisError> {
+        let progress = self.progress(point);
+        let (middle, sole) = (self.path.pelvis(progress).plus(shift), self.path.swing_sole(progress));
+        let pelvis = PointMotion { position: middle.position - self.middle_in_pelvis, ..middle };
+        self.check_reach(point, &pelvis.position, &sole.position)?;
+
+        let mut motion = Motion::at_rest(*guess);
         let ends = [
-            LegEnd { position: right_hip, velocity: pelvis.velocity, acceleration: pelvis.acceleration },
+            LegEnd { position: pelvis.position, velocity: pelvis.velocity, acceleration: pelvis.acceleration },
             LegEnd {
-                position: left_ankle,
+                position: sole.position + self.to_left_foot,
                 velocity: sole.velocity - pelvis.velocity,
                 acceleration: sole.acceleration - pelvis.acceleration,
             },
         ];
         for (side, end) in Side::BOTH.into_iter().zip(&ends) {
-            move_leg(tree, Leg(side), end, &mut motion).map_err(|unreachable| SynthesisError::LegUnreachable {
-                row: point / points_per_interval,
-                last: parameters.intervals,
+            move_leg(self.tree, side, end, &mut motion).map_err(|unreachable| SynthesisError::LegUnreachable {
+                row: point / self.points_per_interval,
+                last: self.parameters.intervals,
                 side,
                 residual: unreachable.residual,
             })?;
         }
-        angles = motion.angles;
-        swing_arms(mechanism, parameters, progress, &mut motion);
-        points.push((progress, motion));
+        swing_arms(self.mechanism, self.parameters, progress, &mut motion);
+        Ok(motion)
     }
-    Ok(points)
-}
 
-/// Length of the stretched leg, hip to ankle (m).
-fn leg_length(mechanism: &Mechanism) -> f64 {
-    mechanism.links[Joint::LeftKnee].origin.norm() + mechanism.links[Joint::LeftAnklePitch].origin.norm()
+    fn check_reach(&self, point: usize, pelvis: &Vector3<f64>, sole: &Vector3<f64>) -> Result<(), SynthesisError> {
+        let LegReach { hips_in_pelvis, ankles_in_foot, .. } = self.reach;
+        let feet = [Vector3::zeros(), sole + self.to_left_foot];
+        for side in Side::BOTH {
+            let index = side.index();
+            let distance = (pelvis + hips_in_pelvis[index] - feet[index] - ankles_in_foot[index]).norm();
+            let length = self.reach.length();
+            if distance >= length {
+                let (row, last) = (point / self.points_per_interval, self.parameters.intervals);
+                return Err(SynthesisError::LegTooShort { row, last, side, distance, length });
+            }
+        }
+        Ok(())
+    }
 }

@@ -4,7 +4,7 @@
 //! foot. Both paths are scaled to the step length and closed: the pelvis such that it ends with the rate with which it
 //! began, the swing foot such that it starts and lands at rest on the ground.
 
-use model::{Joint, Mechanism};
+use model::{LegReach, Mechanism};
 
 use crate::fourier::FourierSeries;
 use crate::gait_recording::{GaitRecording, Sample};
@@ -41,8 +41,7 @@ impl RecordedPath {
         pendulum: PendulumPath,
         recording: &GaitRecording,
     ) -> Result<Self, SynthesisError> {
-        let thigh = mechanism.links[Joint::LeftKnee].origin.norm();
-        let shank = mechanism.links[Joint::LeftAnklePitch].origin.norm();
+        let LegReach { thigh, shank, .. } = LegReach::of(mechanism);
         // With an upright trunk the thigh is pitched by the hip's flexion, the shank by that minus the knee's flexion.
         let fit = |hip_part: fn(Jet) -> Jet, sign: f64| {
             let samples = recording.samples.iter().map(|sample| {

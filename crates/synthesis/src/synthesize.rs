@@ -5,9 +5,11 @@ use gait::{NominalRow, NominalTable};
 use model::{Joint, JointVector, Mechanism, Mirror, Mirrored, Motion, PerJoint};
 use nalgebra::Vector3;
 
-use crate::limbs::move_limbs;
+use crate::jet::PointMotion;
+use crate::limbs::Limbs;
+use crate::pelvis_balance::balance_pelvis;
 use crate::semi_inverse::{TRUNK_JOINTS, balance_trunk};
-use crate::{LegPattern, SynthesisError, SynthesisParameters};
+use crate::{Balance, LegPattern, SynthesisError, SynthesisParameters};
 
 /// A nominal half-step, with its measures.
 #[derive(Clone, Debug)]
@@ -60,14 +62,22 @@ pub fn synthesize(
     let tree = Tree::new(mechanism);
     let path = pattern.path(mechanism, parameters)?;
 
-    // legs and arms, prescribed
-    let mut points = move_limbs(mechanism, &tree, path.as_ref(), parameters, POINTS_PER_INTERVAL)?;
-
-    // the trunk, balancing them
-    let trunk = balance_trunk(&tree, &mirror, &points)?;
-    for (progress, motion) in &mut points {
-        trunk.apply(*progress, motion);
-    }
+    // legs and arms, prescribed, and the trunk or the pelvis, balancing them
+    let limbs = Limbs::new(mechanism, &tree, path.as_ref(), parameters, POINTS_PER_INTERVAL);
+    let (points, iterations) = match parameters.balance.of(mechanism)? {
+        Balance::Trunk => {
+            let mut points = limbs.motions(|_| PointMotion::AT_REST)?;
+            let trunk = balance_trunk(&tree, &mirror, &points)?;
+            for (progress, motion) in &mut points {
+                trunk.apply(*progress, motion);
+            }
+            (points, trunk.iterations)
+        }
+        Balance::Pelvis | Balance::Auto => {
+            let shift = balance_pelvis(&tree, &limbs)?;
+            (limbs.motions(|progress| shift.at(progress))?, shift.iterations)
+        }
+    };
 
     // the torques and ground wrenches that the motion needs
     let mut newton_euler = NewtonEuler::default();
@@ -77,7 +87,7 @@ pub fn synthesize(
         .map(|(_, motion)| nominal_row(&mut newton_euler, &tree, &rounded(motion)))
         .collect();
     check_limits(mechanism, &rows)?;
-    let report = report(mechanism, &mirror, &rows, trunk.iterations)?;
+    let report = report(mechanism, &mirror, &rows, iterations)?;
 
     let table = NominalTable {
         duration: parameters.duration,

@@ -3,12 +3,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use clap::ValueEnum;
 use config::Config;
 use gait::NominalTable;
 use model::Mechanism;
 use plots::picture;
 use serde::Serialize;
-use synthesis::{GaitRecording, LegPattern, SynthesisParameters, SynthesisReport, synthesize};
+use synthesis::{Balance, GaitRecording, LegPattern, SynthesisParameters, SynthesisReport, synthesize};
 
 use crate::error::CliError;
 use crate::output::{print_json, print_line, write_files};
@@ -70,6 +71,28 @@ struct ParameterOptions {
     /// Intervals of the table
     #[arg(long, value_name = "N")]
     intervals: Option<usize>,
+    /// What moves to keep the ZMP under the ankle; without it the trunk, or the pelvis of a robot without a waist that
+    /// pitches and rolls
+    #[arg(long, value_enum)]
+    balance: Option<BalanceOption>,
+}
+
+/// What moves to keep the ZMP under the ankle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum BalanceOption {
+    /// The trunk; the pelvis moves as prescribed
+    Trunk,
+    /// The pelvis; the trunk stays upright
+    Pelvis,
+}
+
+impl From<BalanceOption> for Balance {
+    fn from(option: BalanceOption) -> Self {
+        match option {
+            BalanceOption::Trunk => Balance::Trunk,
+            BalanceOption::Pelvis => Balance::Pelvis,
+        }
+    }
 }
 
 /// Result of the synthesis; angles in degrees.
@@ -93,8 +116,8 @@ impl SynthesizeArgs {
             Some(file) => LegPattern::Recorded(GaitRecording::load(file).map_err(CliError::bad_input)?),
         };
         let made_by = self.command_line();
-        let synthesis =
-            synthesize(&mechanism, &pattern, &self.parameters.parameters(), &made_by).map_err(CliError::bad_input)?;
+        let synthesis = synthesize(&mechanism, &pattern, &self.parameters.parameters(&mechanism), &made_by)
+            .map_err(CliError::bad_input)?;
 
         create_parent(&self.out)?;
         if !self.force {
@@ -129,9 +152,9 @@ impl SynthesizeArgs {
 }
 
 impl ParameterOptions {
-    /// The parameters with angles in radians, and defaults for options that were not given.
-    fn parameters(&self) -> SynthesisParameters {
-        let default = SynthesisParameters::default();
+    /// The parameters with angles in radians, and defaults in the robot's proportions for options that were not given.
+    fn parameters(&self, mechanism: &Mechanism) -> SynthesisParameters {
+        let default = SynthesisParameters::for_robot(mechanism);
         SynthesisParameters {
             step_length: self.step_length.unwrap_or(default.step_length),
             duration: self.duration.unwrap_or(default.duration),
@@ -143,6 +166,7 @@ impl ParameterOptions {
             arm_swing: self.arm_swing.map_or(default.arm_swing, f64::to_radians),
             elbow_flexion: self.elbow_flexion.map_or(default.elbow_flexion, f64::to_radians),
             intervals: self.intervals.unwrap_or(default.intervals),
+            balance: self.balance.map_or(default.balance, Balance::from),
         }
     }
 
@@ -162,6 +186,7 @@ impl ParameterOptions {
         .into_iter()
         .map(|(option, value)| (option, value.map(|value| value.to_string())))
         .chain([("intervals", self.intervals.map(|intervals| intervals.to_string()))])
+        .chain([("balance", self.balance.and_then(|balance| Some(balance.to_possible_value()?.get_name().to_owned())))])
         .filter_map(|(option, value)| Some((option, value?)))
     }
 }

@@ -129,7 +129,7 @@ pub(crate) fn left_sole_to_right_sole(mechanism: &Mechanism, angles: &JointVecto
         let turned = UnitQuaternion::from_axis_angle(&link.axis, angles[joint]);
         link_to_support[joint] = parent * Isometry3::from_parts(Translation3::from(link.origin), turned);
     }
-    let sole = |side| link_to_support[Mechanism::foot(side)] * Translation3::from(mechanism.sole_in_foot(side));
+    let sole = |side| link_to_support[mechanism.foot(side)] * Translation3::from(mechanism.sole_in_foot(side));
     sole(Side::Right).inverse() * sole(Side::Left)
 }
 

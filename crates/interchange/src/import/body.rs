@@ -49,11 +49,4 @@ impl Body {
             inertia: (self.inertia + other.inertia) / 2.0,
         }
     }
-
-    /// Principal moments of inertia, the smallest first (kg·m²).
-    pub(super) fn principal_moments(&self) -> [f64; 3] {
-        let mut moments: [f64; 3] = self.inertia.symmetric_eigenvalues().into();
-        moments.sort_by(f64::total_cmp);
-        moments
-    }
 }

@@ -15,6 +15,8 @@ const RATE_MAX: f64 = 174.5;
 const EFFORT_DEFAULT: f64 = 0.5;
 /// From this share on, a torque is no limit worth the name.
 const EFFORT_LARGE: f64 = 5.0;
+/// Greatest torque that a mechanism file may have (N·m).
+const EFFORT_MAX: f64 = 1e5;
 /// Beyond this an angle of a URDF cannot be meant in radians.
 const ANGLE_MAX: f64 = 1.01 * std::f64::consts::TAU;
 /// Standard gravity (m/s²).
@@ -173,7 +175,7 @@ fn effort(joint: &UrdfJoint, map: MapJoint, scale: Scale, notes: &mut DriveNotes
                 );
                 notes.add(words, &joint.name);
             }
-            effort
+            effort.min(EFFORT_MAX)
         }
         None => {
             if map.motor.is_none() {

@@ -10,6 +10,9 @@ use crate::import::sole::SoleSize;
 use crate::import::toml_text::{COARSE, FINE, array, digits, number, quoted, table, vector};
 use crate::import::urdf_robot::Robot;
 
+/// Bodies that weigh less (kg) are left out.
+const MASS_MIN: f64 = 1e-6;
+
 /// What the file says beside the biped.
 pub(super) struct Header<'h> {
     pub name: &'h str,
@@ -28,6 +31,10 @@ pub(super) fn write(biped: &Biped, robot: &Robot, map: &ImportMap, header: &Head
     );
     table(&mut text, "[source]", &[("urdf", quoted(header.urdf))]);
     table(&mut text, "[sole]", &header.sole.keys().map(|(key, value)| (key, number(value, COARSE))));
+    if map.motors.is_empty() {
+        // The loader looks for the table.
+        table(&mut text, "[motor]", &[]);
+    }
     write_motors(&mut text, map);
 
     let ankle = biped.ankle(0);
@@ -115,7 +122,7 @@ fn joint(
 
 /// Mass, centre of mass and inertia in the frame of a joint; nothing for a massless body.
 fn body(grid: &Grid, body: &Body, joint: OnGrid) -> Keys {
-    if body.mass <= 0.0 {
+    if body.mass < MASS_MIN {
         return Vec::new();
     }
     let inertia = &body.inertia;

@@ -22,6 +22,7 @@ mod map_text;
 mod mechanism_text;
 mod parts;
 mod plausibility;
+mod possible_moments;
 mod posture;
 mod range_pair;
 mod report;
@@ -59,6 +60,8 @@ pub struct Imported {
     pub mass: f64,
     /// Length of a stretched leg from hip to ankle (m).
     pub leg: f64,
+    /// Height of the ankle above the sole (m).
+    pub ankle_height: f64,
     /// The text of the mechanism file.
     pub text: String,
     /// The text of a complete map, with everything that was found.
@@ -128,7 +131,7 @@ fn import_robot(robot: &Robot, map: &ImportMap, file: &str, errors: &mut FileErr
     plausibility::check(scale, robot, &biped.as_ref().map_or(Vec::new(), report::bodies), errors);
     let mut biped = biped?;
     symmetry::symmetrise(&mut biped, robot, errors, &mut lines);
-    report::impossible_moments(&biped, &mut lines);
+    possible_moments::repair(&mut biped, scale.leg, &mut lines);
     let feet = sides.map(|leg| legs.bodies[leg][5]);
     let sole = map.sole.or_else(|| {
         let points = feet.map(|foot| contact_points(robot, &graph.body_of, foot, &poses.links));
@@ -144,6 +147,7 @@ fn import_robot(robot: &Robot, map: &ImportMap, file: &str, errors: &mut FileErr
     Some(Imported {
         mass: biped.mass(),
         leg: scale.leg,
+        ankle_height: sole.ankle_height,
         text: mechanism_text::write(&biped, robot, map, &header),
         map: map_text::write(robot, map, &used, &header),
         roles: used.iter().map(|(role, joint)| (*role, robot.joints[*joint].name.clone())).collect(),

@@ -7,9 +7,6 @@ use crate::import::role::{Role, Side};
 use crate::import::urdf_robot::{JointKind, Robot};
 use crate::import::waist::Waist;
 
-/// Rounding of a URDF's moments of inertia, as a share.
-const ROUNDING: f64 = 1e-6;
-
 /// Tells the roles of the joints; `legs` are those of right and left leg from the pelvis down.
 pub(super) fn roles(
     robot: &Robot,
@@ -117,18 +114,4 @@ pub(super) fn bodies(biped: &Biped) -> Vec<(&'static str, Body)> {
         bodies.extend(leg.bodies.iter().zip(names).map(|(body, names)| (names[side], *body)));
     }
     bodies
-}
-
-/// Tells moments of inertia that no body can have; they are taken as given.
-pub(super) fn impossible_moments(biped: &Biped, lines: &mut Vec<String>) {
-    for (name, body) in bodies(biped).into_iter().filter(|(name, body)| body.mass > 0.0 && !name.contains("left")) {
-        let [small, middle, large] = body.principal_moments();
-        if small <= 0.0 || large > (small + middle) * (1.0 + ROUNDING) {
-            lines.push(format!(
-                "{name} ({:.4} kg): principal moments {small:.3e}, {middle:.3e}, {large:.3e} kg·m² that no body can have \
-                 (each must be positive, and at most the sum of the other two); taken as given",
-                body.mass
-            ));
-        }
-    }
 }

@@ -4,7 +4,7 @@
 //! holds, in the order of its fields and joints, in SI units. Names, comments and the order of the file's keys do not
 //! count; `-0` counts as `0`.
 
-use crate::{Joint, Mechanism};
+use crate::{Joint, Mechanism, Motor};
 
 /// The fingerprint of a mechanism.
 pub(super) fn of(mechanism: &Mechanism) -> u64 {
@@ -30,7 +30,13 @@ pub(super) fn of(mechanism: &Mechanism) -> u64 {
             [limits.angle_min, limits.angle_max, limits.rate_max].into_iter().for_each(&mut add);
         }
         add(f64::from(u8::from(link.motor.is_some())));
-        if let Some(motor) = link.motor {
+        if let Some(axes) = link.body.principal_axes {
+            axes.matrix().iter().copied().for_each(&mut add);
+        }
+        if let Some(Motor::Torque(source)) = link.motor {
+            [source.effort, source.armature].into_iter().for_each(&mut add);
+        }
+        if let Some(Motor::Dc(motor)) = link.motor {
             let electric = [motor.resistance, motor.torque_constant, motor.voltage_max];
             electric.into_iter().chain([motor.gear_ratio, motor.rotor_inertia]).for_each(&mut add);
         }

@@ -5,12 +5,12 @@
 //! right shank is carried by the ankle, the left one by the knee.
 
 use config::Table;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
-use crate::{Joint, Mechanism, Mirror, Motor, PerJoint, partner};
+use crate::{Joint, Mechanism, Mirror, Motor, PerJoint, Side, partner};
 
 /// Largest difference of lengths, masses and angles between the two sides: the rounding of decimals (m, kg, rad).
-const TOLERANCE: f64 = 1e-9;
+const TOLERANCE: f64 = 1e-8;
 
 /// Notes everything that differs between right and left, at the joint with the higher number.
 pub(super) fn check(tables: &PerJoint<Table>, mechanism: &Mechanism) {
@@ -19,7 +19,7 @@ pub(super) fn check(tables: &PerJoint<Table>, mechanism: &Mechanism) {
             axis(joint, &tables[joint], mechanism);
             origin(joint, &tables[joint], mechanism);
         }
-        if linked_partner(joint) <= joint {
+        if linked_partner(joint, mechanism) <= joint {
             body(joint, &tables[joint], mechanism);
         }
     }
@@ -51,8 +51,8 @@ fn origin(joint: Joint, table: &Table, mechanism: &Mechanism) {
     let (model, image) = if joint.is_in_leg() {
         // The link that joins this joint to its parent is the mirror image of the one that joins the partner to the
         // joint after it.
-        let model = Joint::ALL[partner(joint).index() + 1];
-        (model, -across(links[model].origin))
+        let model = next(partner(joint), mechanism);
+        (model, mirrored_step(model, mechanism))
     } else if joint.is_powered() {
         let plane = 2.0 * plane_of_parent(joint, mechanism);
         (partner(joint), across(links[partner(joint)].origin) + Vector3::new(0.0, plane, 0.0))
@@ -66,14 +66,15 @@ fn origin(joint: Joint, table: &Table, mechanism: &Mechanism) {
     let parents = [joint, partner(joint)].map(|joint| links[joint].parent.filter(|parent| *parent < joint));
     if let [Some(own), Some(other)] = parents
         && !joint.is_in_leg()
-        && own != linked_partner(other)
+        && own != linked_partner(other, mechanism)
     {
-        table.refuse("parent", &format!("must be \"{}\", as the mirror has it", linked_partner(other).name()));
+        let must = format!("must be \"{}\", as the mirror has it", linked_partner(other, mechanism).name());
+        table.refuse("parent", &must);
     }
 }
 
 fn body(joint: Joint, table: &Table, mechanism: &Mechanism) {
-    let other = linked_partner(joint);
+    let other = linked_partner(joint, mechanism);
     let (own, model) = (mechanism.links[joint].body, mechanism.links[other].body);
     let named = format!("as joint.{}", other.name());
     if (own.mass - model.mass).abs() > TOLERANCE {
@@ -82,8 +83,19 @@ fn body(joint: Joint, table: &Table, mechanism: &Mechanism) {
     if own.mass == 0.0 || model.mass == 0.0 {
         return;
     }
-    if (own.inertia - model.inertia).norm() > TOLERANCE {
-        table.refuse("inertia_kg_m2", &format!("must be {} {named}", list(model.inertia)));
+    let flip = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, 1.0));
+    let image = flip * model.inertia_matrix() * flip;
+    if (own.inertia_matrix() - image).norm() > TOLERANCE {
+        let mut must = format!("must be {} {named}", list(image.diagonal()));
+        if model.principal_axes.is_some() {
+            let products = list(Vector3::new(image.m12, image.m13, image.m23));
+            must = format!(
+                "must be {} with the products {products}, the mirror image of {}",
+                list(image.diagonal()),
+                &named[3..]
+            );
+        }
+        table.refuse("inertia_kg_m2", &must);
     }
     let image = across(model.com) + image_of_frame(other, mechanism);
     if (own.com - image).norm() > TOLERANCE {
@@ -112,25 +124,44 @@ fn drive(joint: Joint, table: &Table, mechanism: &Mechanism, sign: f64) {
             table.refuse("rate_max_deg_per_s", &format!("must be {rate} as joint.{}", other.name()));
         }
     }
-    if let (Some(own), Some(model)) = (own.motor, model.motor)
-        && numbers(&own).into_iter().zip(numbers(&model)).any(|(own, model)| (own - model).abs() > 0.0)
+    let numbers = [own.motor, model.motor].map(|motor| motor.map(|motor| numbers(&motor)));
+    if let [Some(own), Some(model)] = numbers
+        && own.into_iter().zip(model).any(|(own, model)| (own - model).abs() > 0.0)
     {
-        table.refuse("motor", &format!("must be the motor of joint.{}", other.name()));
+        let key = if table.has("effort_n_m") { "effort_n_m" } else { "motor" };
+        table.refuse(key, &format!("must be the motor of joint.{}", other.name()));
     }
 }
 
 /// The numbers of a motor. Refused values are `NaN`, which never counts as a difference.
 fn numbers(motor: &Motor) -> [f64; 5] {
-    [motor.resistance, motor.torque_constant, motor.gear_ratio, motor.rotor_inertia, motor.voltage_max]
+    match motor {
+        Motor::Dc(motor) => {
+            [motor.resistance, motor.torque_constant, motor.gear_ratio, motor.rotor_inertia, motor.voltage_max]
+        }
+        Motor::Torque(source) => [source.effort, source.armature, 0.0, 0.0, 0.0],
+    }
+}
+
+/// The joint after another one on the way from the right foot over the pelvis to the left foot.
+fn next(joint: Joint, mechanism: &Mechanism) -> Joint {
+    let order = mechanism.order.all();
+    order[(mechanism.order.place(joint) + 1).min(Joint::COUNT - 1)]
+}
+
+/// The mirror image of the way from a joint of the legs to the one before it (m).
+fn mirrored_step(joint: Joint, mechanism: &Mechanism) -> Vector3<f64> {
+    -across(mechanism.links[joint].origin)
 }
 
 /// The joint whose link is the mirror image of the link that `joint` carries: the left foot for the right foot, the
 /// pelvis for itself.
-fn linked_partner(joint: Joint) -> Joint {
+fn linked_partner(joint: Joint, mechanism: &Mechanism) -> Joint {
+    let [right_foot, left_foot] = Side::BOTH.map(|side| mechanism.foot(side));
     match joint {
-        Joint::LeftAnkleRoll => Joint::FootPitch,
-        Joint::FootPitch => partner(Joint::RightAnkleRoll),
-        _ if joint.is_in_leg() => partner(Joint::ALL[joint.index() + 1]),
+        _ if joint == left_foot => right_foot,
+        _ if joint == right_foot => left_foot,
+        _ if joint.is_in_leg() => partner(next(joint, mechanism)),
         _ => partner(joint),
     }
 }
@@ -141,8 +172,8 @@ fn linked_partner(joint: Joint) -> Joint {
 /// next joint.
 fn image_of_frame(joint: Joint, mechanism: &Mechanism) -> Vector3<f64> {
     match joint {
-        Joint::FootPitch => Vector3::new(0.0, 0.0, -mechanism.sole.ankle_height),
-        _ if joint.is_in_leg() => -across(mechanism.links[Joint::ALL[joint.index() + 1]].origin),
+        Joint::FootPitch => mechanism.sole_in_foot(Side::Left),
+        _ if joint.is_in_leg() => mirrored_step(next(joint, mechanism), mechanism),
         _ => Vector3::zeros(),
     }
 }
@@ -150,9 +181,10 @@ fn image_of_frame(joint: Joint, mechanism: &Mechanism) -> Vector3<f64> {
 /// The y coordinate of the plane of symmetry in the parent frame of `joint`, a joint of trunk or arms (m).
 fn plane_of_parent(joint: Joint, mechanism: &Mechanism) -> f64 {
     // The pelvis' frame is at the right hip; those of trunk and arms are in the middle or mirrored.
-    match mechanism.links[joint].parent {
-        Some(Joint::RightHipRoll) => mechanism.links[Joint::LeftHipRoll].origin.y / 2.0,
-        _ => 0.0,
+    if mechanism.links[joint].parent == Some(mechanism.pelvis()) {
+        mechanism.links[mechanism.leg(Side::Left)[0]].origin.y / 2.0
+    } else {
+        0.0
     }
 }
 

@@ -1,0 +1,32 @@
+//! Where an imported robot came from: its URDF, and which of the URDF's joints is which.
+
+use crate::PerJoint;
+
+/// The URDF that a mechanism was imported from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UrdfSource {
+    /// The URDF's file, beside the mechanism's.
+    pub file: String,
+    /// The URDF's joint for each joint of the mechanism; `None` for those that the robot does not have.
+    pub joints: PerJoint<Option<UrdfJoint>>,
+    /// The other joints of the URDF, which their drives hold.
+    pub held: Vec<HeldJoint>,
+}
+
+/// A joint of a URDF.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UrdfJoint {
+    /// Its name in the URDF.
+    pub name: String,
+    /// Its angle in the URDF per angle of the mechanism: 1 or −1 (-).
+    pub sign: f64,
+}
+
+/// A joint of a URDF that is held.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeldJoint {
+    /// Its name in the URDF.
+    pub name: String,
+    /// The angle at which it is held, in the URDF's sign (rad).
+    pub angle: f64,
+}
