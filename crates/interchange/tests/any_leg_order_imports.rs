@@ -5,7 +5,9 @@ mod support;
 
 use std::fmt::Write;
 
+use config::Config;
 use interchange::import::{LegRole, NamedText, Role, Side, import};
+use model::Mechanism;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use support::robots::{Allowed, is_symmetric, same_robot};
@@ -38,6 +40,7 @@ fn every_order_of_hip_and_ankle_imports_exactly() {
                 }
                 same_robot(&robot.urdf, &imported, yaw, Allowed { place: 1e-9, com: 1e-6 });
                 is_symmetric(&imported);
+                Mechanism::from_toml(&imported.text, "mechanism.toml").unwrap_or_else(|errors| panic!("{errors}"));
                 let knee = file_range(&imported.text, "right_knee");
                 assert!((knee[0] + 2.2_f64.to_degrees()).abs() < 1e-6 && (knee[1] - 0.1_f64.to_degrees()).abs() < 1e-6);
                 let abduction = file_range(&imported.text, "left_hip_roll");

@@ -11,7 +11,7 @@ use model::Mechanism;
 
 use support::robots::{Allowed, is_symmetric, same_numbers, same_robot};
 use support::variants::{nameless, reversed, shuffled, turned};
-use support::{ROBOTS, Tree, shared_robots};
+use support::{ROBOTS, Tree, as_number, shared_robots};
 
 #[test]
 fn robots_whose_root_is_turned_come_out_the_same() {
@@ -48,6 +48,26 @@ fn names_do_not_matter() {
         assert!(!urdf.contains("knee") && !urdf.contains("Knee"), "{name}");
         same_numbers(imported, &read(&urdf, sole));
         same_numbers(imported, &read(&reversed(&urdf), sole));
+    });
+}
+
+#[test]
+fn soles_are_read_off_collision_shapes_where_there_are_any() {
+    each_robot(|name, urdf, sole, _| {
+        let imported = import(NamedText { text: urdf, file: "robot.urdf" }, None);
+        if !["g1", "limx", "t1", "gr1t1"].contains(&name) {
+            let error = imported.expect_err("no shapes on its feet").to_string();
+            assert!(error.contains("measure it") && error.contains("[sole]"), "{error}");
+            return;
+        }
+        let file = |text: &str| text.parse::<toml::Table>().unwrap();
+        let (read, told) = (file(&imported.unwrap_or_else(|error| panic!("{error}")).text), file(sole));
+        // GR1T1's are two pipes, its sole was measured from meshes
+        let allowed = if name == "gr1t1" { 0.05 } else { 1e-4 };
+        for (key, value) in told["sole"].as_table().unwrap() {
+            let (read, told) = (as_number(&read["sole"][key]), as_number(value));
+            assert!((read - told).abs() < allowed, "{name}.{key}: {read} and {told}");
+        }
     });
 }
 
