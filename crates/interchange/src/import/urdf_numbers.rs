@@ -20,8 +20,9 @@ pub(super) const LENGTH: Allowed = Allowed { min: -1e5, max: 1e5, unit: "metres"
 pub(super) const TURN: Allowed = Allowed { min: -12.6, max: 12.6, unit: "radians, not degrees" };
 /// Masses.
 pub(super) const MASS: Allowed = Allowed { min: 0.0, max: 1e7, unit: "kilograms" };
-/// Moments of inertia, and products of inertia.
-pub(super) const MOMENT: Allowed = Allowed { min: 0.0, max: 1e12, unit: "kg·m²" };
+/// Moments of inertia: those that are zero but for rounding may be negative.
+pub(super) const MOMENT: Allowed = Allowed { min: -1e-12, max: 1e12, unit: "kg·m²" };
+/// Products of inertia.
 pub(super) const PRODUCT: Allowed = Allowed { min: -1e12, max: 1e12, unit: "kg·m²" };
 /// Sizes of collision shapes.
 pub(super) const SIZE: Allowed = Allowed { min: 0.0, max: 1e5, unit: "metres" };
@@ -103,7 +104,10 @@ impl Numbers<'_, '_> {
                 format!("must be {many}, finite and at least 0 ({})", allowed.unit)
             }
             Some(_) if allowed.max > 1e15 => format!("must be {many}, finite ({})", allowed.unit),
-            Some(_) => format!("must be {many} from {} to {} ({})", allowed.min, allowed.max, allowed.unit),
+            Some(_) => {
+                let min = if allowed.min.abs() < 1e-9 { 0.0 } else { allowed.min };
+                format!("must be {many} from {min} to {} ({})", allowed.max, allowed.unit)
+            }
             None if text.contains("${") || text.contains("$(") => {
                 format!("must be {many} ({}); this is an expression of xacro: expand the file with xacro", allowed.unit)
             }

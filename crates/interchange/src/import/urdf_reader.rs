@@ -66,7 +66,7 @@ fn read_body(inertial: &Element, numbers: &mut Numbers) -> Body {
         }
     };
     let inertia = inertial.child("inertia").map_or(Matrix3::zeros(), |inertia| {
-        let [xx, yy, zz] = ["ixx", "iyy", "izz"].map(|key| numbers.required(inertia, key, MOMENT));
+        let [xx, yy, zz] = ["ixx", "iyy", "izz"].map(|key| numbers.required(inertia, key, MOMENT).max(0.0));
         let [xy, xz, yz] = ["ixy", "ixz", "iyz"].map(|key| numbers.optional(inertia, key, PRODUCT).unwrap_or_default());
         Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
     });
