@@ -188,6 +188,7 @@ fn rates_and_torques_that_the_urdf_does_not_tell_are_assumed_and_told() {
         ("effort=\"30\"", "effort=\"0\"", "the URDF tells no torque (effort 0 or none); assumed 30.2"),
         ("effort=\"30\"", "", "the URDF tells no torque (effort 0 or none); assumed 30.2"),
         ("effort=\"30\"", "effort=\"1000\"", "torque 1000 N·m taken as given"),
+        ("effort=\"30\"", "effort=\"1e9\"", "tells 1000000000 N·m, which is no limit worth the name; assumed 30.2"),
         ("velocity=\"9\"", "velocity=\"500\"", "the URDF tells 500 rad/s, which is no limit worth the name"),
     ] {
         let imported = taken(&walker().replace(from, to), "");

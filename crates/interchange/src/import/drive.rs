@@ -166,24 +166,27 @@ fn effort(joint: &UrdfJoint, map: MapJoint, scale: Scale, notes: &mut DriveNotes
     if let Some(told) = map.effort {
         return told;
     }
+    let assumed = EFFORT_DEFAULT * unit;
+    let default = |words: String, notes: &mut DriveNotes| {
+        if map.motor.is_none() {
+            notes.add(format!("{words}; assumed {assumed:.3} N·m, half of weight times leg length"), &joint.name);
+        }
+        assumed
+    };
     match joint.limit.effort.filter(|effort| *effort > 0.0) {
+        None => default("the URDF tells no torque (effort 0 or none)".to_string(), notes),
+        Some(effort) if effort > EFFORT_MAX => {
+            default(format!("the URDF tells {effort} N·m, which is no limit worth the name"), notes)
+        }
         Some(effort) => {
             if effort > EFFORT_LARGE * unit && map.motor.is_none() {
+                let times = effort / unit;
                 let words = format!(
-                    "torque {effort} N·m taken as given, though it is {:.0} times weight times leg length",
-                    effort / unit
+                    "torque {effort} N·m taken as given, though it is {times:.0} times weight times leg length"
                 );
                 notes.add(words, &joint.name);
             }
-            effort.min(EFFORT_MAX)
-        }
-        None => {
-            if map.motor.is_none() {
-                let effort = EFFORT_DEFAULT * unit;
-                let words = "the URDF tells no torque (effort 0 or none)";
-                notes.add(format!("{words}; assumed {effort:.3} N·m, half of weight times leg length"), &joint.name);
-            }
-            EFFORT_DEFAULT * unit
+            effort
         }
     }
 }
