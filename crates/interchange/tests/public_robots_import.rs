@@ -1,5 +1,6 @@
 //! Nine public robots come in with nothing but their soles, and are the robots that their URDFs describe: masses,
-//! places and centres of mass agree at random angles. Frames turned, links shuffled and names taken away change nothing.
+//! places and centres of mass agree at random angles. Frames turned, links shuffled and names taken away change
+//! nothing.
 
 mod support;
 

@@ -75,9 +75,9 @@ fn names_of_all_scripts_come_back() {
         let quoted = format!("\"{quoted}\"");
         let urdf = walker().replace("left_knee", &name.replace('"', "&quot;").replace(['\t', '\u{7}'], "_"));
         let map = format!(
-            "name = {quoted}\n[motor.{quoted}]\nresistance_ohm = 1\ntorque_constant_n_m_per_a = 0.05\nrotor_inertia_kg_m2 = \
-             1e-5\ngear_ratio = 50\nvoltage_max_v = 48\n[joint.left_knee]\nmotor = {quoted}\n[joint.right_knee]\nmotor = \
-             {quoted}\n"
+            "name = {quoted}\n[motor.{quoted}]\nresistance_ohm = 1\ntorque_constant_n_m_per_a = \
+             0.05\nrotor_inertia_kg_m2 = 1e-5\ngear_ratio = 50\nvoltage_max_v = 48\n[joint.left_knee]\nmotor = \
+             {quoted}\n[joint.right_knee]\nmotor = {quoted}\n"
         );
         let imported = taken(&urdf, &map);
         let file: toml::Table = imported.text.parse().unwrap_or_else(|error| panic!("{error}: {}", imported.text));
@@ -290,8 +290,8 @@ fn robots_that_are_no_such_bipeds_are_refused_with_what_was_found() {
     let mut toes = walker();
     for side in ["left", "right"] {
         let toe = format!(
-            "<link name=\"{side}_toe\"/><joint name=\"{side}_toe\" type=\"revolute\"><parent link=\"{side}_foot\"/><child \
-             link=\"{side}_toe\"/><axis xyz=\"0 1 0\"/><origin xyz=\"0.1 0 0\"/></joint></robot>"
+            "<link name=\"{side}_toe\"/><joint name=\"{side}_toe\" type=\"revolute\"><parent \
+             link=\"{side}_foot\"/><child link=\"{side}_toe\"/><axis xyz=\"0 1 0\"/><origin xyz=\"0.1 0 0\"/></joint></robot>"
         );
         toes = toes.replace("</robot>", &toe);
     }
@@ -318,8 +318,8 @@ fn robots_that_are_no_such_bipeds_are_refused_with_what_was_found() {
 
 #[test]
 fn keys_of_older_maps_are_told_what_to_do() {
-    let map = "name = \"w\"\n[idealise]\naxes_moved_max_m = 0.1\n[joint.left_knee]\nstraight_deg = 3\n[[fixed]]\nurdf = \
-               \"waist_yaw\"\n";
+    let map = "name = \"w\"\n[idealise]\naxes_moved_max_m = 0.1\n[joint.left_knee]\nstraight_deg = 3\n[[fixed]]\nurdf \
+               = \"waist_yaw\"\n";
     let error = refused_with_map(
         &walker(),
         map,

@@ -68,8 +68,8 @@ impl ImportMap {
     /// Reads a map for a URDF.
     ///
     /// # Errors
-    /// Every mistake in the map: also joints that the URDF does not have, that cannot turn, or that are named twice, and
-    /// the keys of older maps.
+    /// Every mistake in the map: also joints that the URDF does not have, that cannot turn, or that are named twice,
+    /// and the keys of older maps.
     pub(super) fn read(map: NamedText, robot: &Robot) -> Result<Self, ConfigErrors> {
         let document = Document::parse(map.text, map.file)?;
         let root = document.root();

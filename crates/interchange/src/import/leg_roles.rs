@@ -32,18 +32,19 @@ pub(super) fn find(
         let names = joints.map(|joint| robot.joints[joint].name.as_str());
         // What the map says is tried first; if it cannot be, it is told what there is instead.
         let roles = of_leg(&axes, &told_roles(map, side, &joints)).or_else(|_| of_leg(&axes, &[None; 6]));
-        let roles = match roles {
-            Ok(roles) => roles,
-            Err(what) => {
-                errors.note_at(robot.joints[joints[0]].line, format!(
-                    "{} leg, from the pelvis down {}: {what}; this is so at the URDF's zero, where the robot must stand \
-                     straight, z up",
+        let roles =
+            match roles {
+                Ok(roles) => roles,
+                Err(what) => {
+                    errors.note_at(robot.joints[joints[0]].line, format!(
+                    "{} leg, from the pelvis down {}: {what}; this is so at the URDF's zero, where the robot must \
+                     stand straight, z up",
                     side.name(),
                     names.join(", ")
                 ));
-                continue;
-            }
-        };
+                    continue;
+                }
+            };
         for (role, joint) in leg_joints(map, side) {
             let is = joints.iter().position(|other| *other == joint).map(|place| roles[place]);
             if is != Some(role) {
@@ -117,8 +118,8 @@ fn of_leg(axes: &[Unit<Vector3<f64>>; 6], told: &[Option<LegRole>; 6]) -> Result
     let Some(ankle) = ankle else {
         let [first, second] = [4, 5].map(axis);
         return Err(format!(
-            "the last two must be the ankle's, one about y (left) and one about x (ahead), in any order; their axes are \
-             {first}, {second}"
+            "the last two must be the ankle's, one about y (left) and one about x (ahead), in any order; their axes \
+             are {first}, {second}"
         ));
     };
     Ok([hip[0], hip[1], hip[2], Knee, ankle[0], ankle[1]])

@@ -26,7 +26,8 @@ pub(super) struct Header<'h> {
 /// Writes the file's text.
 pub(super) fn write(biped: &Biped, robot: &Robot, map: &ImportMap, header: &Header) -> String {
     let mut text = format!(
-        "# Made by `halfstep import`. Frames, units and signs: as in Halfstep's own config/mechanism.toml.\n\nname = {}\n",
+        "# Made by `halfstep import`. Frames, units and signs: as in Halfstep's own config/mechanism.toml.\n\n\
+         name = {}\n",
         quoted(header.name)
     );
     table(&mut text, "[source]", &[("urdf", quoted(header.urdf))]);

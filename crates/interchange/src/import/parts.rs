@@ -92,14 +92,17 @@ impl Parts<'_> {
                     ),
                 );
             } else if -whole.z < UPRIGHT * whole.norm() {
-                errors.note_at(line, format!(
-                    "{} leg: from hip to ankle it points along [{:.2}, {:.2}, {:.2}] at the URDF's zero; there the robot \
-                     must stand upright, z up",
-                    side.name(),
-                    whole.x / whole.norm(),
-                    whole.y / whole.norm(),
-                    whole.z / whole.norm()
-                ));
+                errors.note_at(
+                    line,
+                    format!(
+                        "{} leg: from hip to ankle it points along [{:.2}, {:.2}, {:.2}] at the URDF's zero; there the \
+                     robot must stand upright, z up",
+                        side.name(),
+                        whole.x / whole.norm(),
+                        whole.y / whole.norm(),
+                        whole.z / whole.norm()
+                    ),
+                );
             }
         }
     }
@@ -185,8 +188,8 @@ impl Parts<'_> {
             middle = lump(first.1);
             if first.0 == roles[1] {
                 lines.push(
-                    "the waist rolls below its pitch joint; a mechanism's waist pitches first: exact for one at a time, \
-                     the trunk is turned by about their product if both are bent"
+                    "the waist rolls below its pitch joint; a mechanism's waist pitches first: exact for one at a \
+                     time, the trunk is turned by about their product if both are bent"
                         .to_string(),
                 );
             }

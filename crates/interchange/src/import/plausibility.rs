@@ -28,8 +28,8 @@ pub(super) fn check(scale: Scale, robot: &Robot, bodies: &[(&str, Body)], errors
             ""
         };
         errors.note(format!(
-            "the legs are {leg:.4} long from hip to ankle, in the URDF's unit, metres; they must have {short} to {long} \
-             m{unit}"
+            "the legs are {leg:.4} long from hip to ankle, in the URDF's unit, metres; they must have {short} to \
+             {long} m{unit}"
         ));
         return;
     }
@@ -42,8 +42,8 @@ pub(super) fn check(scale: Scale, robot: &Robot, bodies: &[(&str, Body)], errors
         let [least, most] = DENSITY.map(|density| density * leg.powi(3));
         let unit = if density > DENSITY[1] { "grams" } else { "tonnes" };
         errors.note(format!(
-            "the robot weighs {mass:.4} in the URDF's unit, kilograms; with legs of {leg:.3} m it must have {least:.2} to \
-             {most:.0} kg: it looks like {unit}"
+            "the robot weighs {mass:.4} in the URDF's unit, kilograms; with legs of {leg:.3} m it must have {least:.2} \
+             to {most:.0} kg: it looks like {unit}"
         ));
     }
     for link in robot.links.iter().filter(|link| link.body.mass > 0.0 && link.body.com.norm() > COM_MAX * leg) {
@@ -65,8 +65,8 @@ pub(super) fn check(scale: Scale, robot: &Robot, bodies: &[(&str, Body)], errors
         let gyration = (body.inertia.diagonal().max() / body.mass).sqrt();
         if body.mass > 0.01 * mass && gyration > GYRATION_MAX * leg {
             errors.note(format!(
-                "{name}: its mass of {:.3} kg and its greatest moment of inertia, {:.4} kg·m², would put it {gyration:.1} m \
-                 apart: the moments must be in kg·m², and look like another unit",
+                "{name}: its mass of {:.3} kg and its greatest moment of inertia, {:.4} kg·m², would put it \
+                 {gyration:.1} m apart: the moments must be in kg·m², and look like another unit",
                 body.mass,
                 body.inertia.diagonal().max()
             ));

@@ -26,8 +26,8 @@ pub(super) fn repair(biped: &mut Biped, leg: f64, lines: &mut Vec<String>) {
     }
     if !changed.is_empty() {
         lines.push(format!(
-            "moments of inertia that no body can have (each must be positive, and at most the sum of the other two) were \
-             raised: {}",
+            "moments of inertia that no body can have (each must be positive, and at most the sum of the other two) \
+             were raised: {}",
             changed.join("; ")
         ));
     }

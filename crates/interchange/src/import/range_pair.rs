@@ -37,8 +37,8 @@ pub(super) fn mean(
         let natural = bends(role) * (own[0] + own[1]) > 0.0;
         let (taken, wrong) = if natural { (own, "left") } else { (image, "right") };
         lines.push(format!(
-            "{name}: the URDF's ranges of right and left contradict each other, as if the {wrong} one's axis had the wrong \
-             sign; taken {} for the right one, the way such a joint bends",
+            "{name}: the URDF's ranges of right and left contradict each other, as if the {wrong} one's axis had the \
+             wrong sign; taken {} for the right one, the way such a joint bends",
             words(taken)
         ));
         taken

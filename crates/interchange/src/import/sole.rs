@@ -89,10 +89,10 @@ pub(super) fn read_off(
     let [right, left] = [0, 1].map(|side| SoleSize::of_points(&points[side], ankles[side]));
     let Some(sole) = right.zip(left).map(|(right, left)| right.mean(&left)) else {
         errors.note(format!(
-            "link {foot}: the foot has no boxes, cylinders or spheres as <collision> that make a sole: measure it, from \
-             the point on the sole under the ankle, and write into the map\n[sole]\nbehind_m = …        # back to the \
-             heel's edge\nahead_m = …         # forward to the toes' edge\nwidth_m = …         # half of it to either \
-             side\nankle_height_m = …  # the ankle's axes above the sole"
+            "link {foot}: the foot has no boxes, cylinders or spheres as <collision> that make a sole: measure it, \
+             from the point on the sole under the ankle, and write into the map\n[sole]\nbehind_m = …        # back to \
+             the heel's edge\nahead_m = …         # forward to the toes' edge\nwidth_m = …         # half of it to \
+             either side\nankle_height_m = …  # the ankle's axes above the sole"
         ));
         return None;
     };

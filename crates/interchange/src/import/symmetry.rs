@@ -79,8 +79,8 @@ fn mean_hinge(
         errors.note_at(
             joints[0].line,
             format!(
-                "joints {} and {} as {name} of right and left leg: their axes must be mirror images of each other; they \
-                 differ by {:.2}° and {:.1} mm, and may by 2° and 20 mm",
+                "joints {} and {} as {name} of right and left leg: their axes must be mirror images of each other; \
+                 they differ by {:.2}° and {:.1} mm, and may by 2° and 20 mm",
                 joints[0].name,
                 joints[1].name,
                 angle.to_degrees(),

@@ -71,8 +71,8 @@ impl Numbers<'_, '_> {
         numbers.map_or(default, Vector3::from)
     }
 
-    /// The pose that an `<origin>` within an element tells: a rotation about the fixed axes x, y, z by roll, pitch, yaw,
-    /// then a translation.
+    /// The pose that an `<origin>` within an element tells: a rotation about the fixed axes x, y, z by roll, pitch,
+    /// yaw, then a translation.
     pub(super) fn origin(&mut self, element: &Element) -> Isometry3<f64> {
         let Some(origin) = element.child("origin") else { return Isometry3::identity() };
         let place = self.vector(origin, "xyz", Vector3::zeros(), LENGTH);

@@ -37,8 +37,8 @@ fn link(name: &str, mass: f64, com: [f64; 3], more: &str) -> String {
     let [x, y, z] = com;
     let moment = mass * 0.004;
     let inertial = format!(
-        "\n    <inertial>\n      <origin xyz=\"{x} {y} {z}\"/>\n      <mass value=\"{mass}\"/>\n      <inertia ixx=\"{moment}\" \
-         iyy=\"{moment}\" izz=\"{moment}\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/>\n    </inertial>"
+        "\n    <inertial>\n      <origin xyz=\"{x} {y} {z}\"/>\n      <mass value=\"{mass}\"/>\n      <inertia \
+         ixx=\"{moment}\" iyy=\"{moment}\" izz=\"{moment}\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/>\n    </inertial>"
     );
     let inertial = if mass > 0.0 { inertial } else { String::new() };
     format!("  <link name=\"{name}\">{inertial}{more}\n  </link>\n")
@@ -47,9 +47,9 @@ fn link(name: &str, mass: f64, com: [f64; 3], more: &str) -> String {
 fn joint(name: &str, parent: &str, child: &str, origin: [f64; 3], axis: &str, limit: [f64; 2]) -> String {
     let ([x, y, z], [lower, upper]) = (origin, limit);
     format!(
-        "  <joint name=\"{name}\" type=\"revolute\">\n    <origin xyz=\"{x} {y} {z}\"/>\n    <parent link=\"{parent}\"/>\n    \
-         <child link=\"{child}\"/>\n    <axis xyz=\"{axis}\"/>\n    <limit lower=\"{lower}\" upper=\"{upper}\" effort=\"30\" \
-         velocity=\"9\"/>\n  </joint>\n"
+        "  <joint name=\"{name}\" type=\"revolute\">\n    <origin xyz=\"{x} {y} {z}\"/>\n    <parent \
+         link=\"{parent}\"/>\n    <child link=\"{child}\"/>\n    <axis xyz=\"{axis}\"/>\n    <limit lower=\"{lower}\" \
+         upper=\"{upper}\" effort=\"30\" velocity=\"9\"/>\n  </joint>\n"
     )
 }
 
