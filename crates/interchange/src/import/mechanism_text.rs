@@ -1,107 +1,183 @@
 //! Writes an imported biped as the text of a mechanism file.
 
-use std::fmt::Write;
+use nalgebra::{Unit, Vector3};
 
-use model::{DcMotor, Joint};
-use nalgebra::Vector3;
+use crate::import::biped::{Biped, Hinge};
+use crate::import::body::Body;
+use crate::import::import_map::{ImportMap, MOTOR_KEYS};
+use crate::import::role::{Role, Side};
+use crate::import::sole::SoleSize;
+use crate::import::toml_text::{COARSE, FINE, array, digits, number, quoted, table, vector};
+use crate::import::urdf_robot::Robot;
 
-use crate::import::JointMap;
-use crate::import::straight_biped::StraightBiped;
+/// Bodies that weigh less (kg) are left out.
+const MASS_MIN: f64 = 1e-6;
 
-/// Steps per unit to which lengths and masses are rounded: less is noise, and would make mirrored numbers differ.
-const PER_UNIT: f64 = 1e9;
-/// Steps per unit to which moments of inertia, which are small for small robots, and axes are rounded.
-const PER_FINE_UNIT: f64 = 1e12;
+/// What the file says beside the biped.
+pub(super) struct Header<'h> {
+    pub name: &'h str,
+    /// File name of the URDF.
+    pub urdf: &'h str,
+    pub sole: SoleSize,
+    /// Joints that are held, by index, with their angles (rad).
+    pub held: &'h [(usize, f64)],
+}
 
 /// Writes the file's text.
-pub(super) fn write(biped: &StraightBiped, map: &JointMap, urdf_file: &str) -> String {
+pub(super) fn write(biped: &Biped, robot: &Robot, map: &ImportMap, header: &Header) -> String {
     let mut text = format!(
-        "# Made by `halfstep import` from {urdf_file}.\n# Frames, units and signs: as in Halfstep's own \
-         config/mechanism.toml.\n\nname = {}\n",
-        quoted(&map.name)
+        "# Made by `halfstep import`. Frames, units and signs: as in Halfstep's own config/mechanism.toml.\n\n\
+         name = {}\n",
+        quoted(header.name)
     );
-    let sole = map.sole;
-    let ankle = biped.hinges[Joint::RightAnkleRoll].place;
-    // O is on the floor under the right ankle.
-    let floor = Vector3::new(ankle.x, ankle.y, ankle.z - sole.ankle_height);
-    // Rounded from the plane of symmetry, y = 0, so that mirrored points stay mirrored.
-    let rounded = |point: Vector3<f64>| point.map(|value| (value * PER_UNIT).round() / PER_UNIT);
-    let on_grid = |point: Vector3<f64>| {
-        rounded(point - Vector3::new(floor.x, 0.0, floor.z)) - rounded(Vector3::new(0.0, floor.y, 0.0))
-    };
-
-    let keys = [
-        ("behind_m", sole.behind),
-        ("ahead_m", sole.ahead),
-        ("width_m", 2.0 * sole.half_width),
-        ("ankle_height_m", sole.ankle_height),
-    ];
-    table(&mut text, "sole", &keys.map(|(key, value)| (key, number(value, PER_UNIT))));
-    for (name, motor) in map.motors.iter().filter_map(|(name, motor)| Some((name, motor.dc()?))) {
-        table(&mut text, &format!("motor.{}", quoted(name)), &motor_keys(motor));
+    table(&mut text, "[source]", &[("urdf", quoted(header.urdf))]);
+    table(&mut text, "[sole]", &header.sole.keys().map(|(key, value)| (key, number(value, COARSE))));
+    if map.motors.is_empty() {
+        // The loader looks for the table.
+        table(&mut text, "[motor]", &[]);
     }
-    for joint in Joint::ALL {
-        let hinge = &biped.hinges[joint];
-        let place = if joint.is_powered() { on_grid(hinge.place) } else { Vector3::zeros() };
-        let mut keys = vec![("number", joint.number().to_string())];
-        let (parent, axis, origin) = match joint {
-            Joint::FootRoll => ("ground", Vector3::x(), Vector3::zeros()),
-            Joint::FootPitch => (Joint::FootRoll.name(), Vector3::y(), Vector3::zeros()),
-            _ => {
-                let parent = hinge.parent;
-                let mounted = if parent.is_powered() { on_grid(biped.hinges[parent].place) } else { Vector3::zeros() };
-                (parent.name(), *hinge.axis, place - mounted)
-            }
+    write_motors(&mut text, map);
+
+    let ankle = biped.ankle(0);
+    let floor = Vector3::new(ankle.x, ankle.y, ankle.z - header.sole.ankle_height);
+    let grid = Grid { floor };
+    let ground = grid.at(floor);
+    let foot = grid.at(floor);
+    let unused = |axis: Vector3<f64>| Unit::new_unchecked(axis);
+    joint(&mut text, "foot_roll", 1, "ground", &unused(Vector3::x()), ground.to(ground), Vec::new());
+    let right_foot = body(&grid, &biped.legs[0].bodies[5], foot);
+    joint(&mut text, "foot_pitch", 2, "foot_roll", &unused(Vector3::y()), ground.to(foot), right_foot);
+
+    // Up the right leg each joint carries the body above it, down the left leg the one below it.
+    let (mut parent, mut at) = ("foot_pitch".to_string(), foot);
+    for (side, place) in (0..6).rev().map(|place| (0, place)).chain((0..6).map(|place| (1, place))) {
+        let hinge = &biped.legs[side].hinges[place];
+        let carried = match (side, place) {
+            (0, 0) => &biped.pelvis,
+            (0, _) => &biped.legs[0].bodies[place - 1],
+            _ => &biped.legs[1].bodies[place],
         };
-        keys.push(("parent", quoted(parent)));
-        keys.push(("axis", list(&axis, PER_FINE_UNIT)));
-        keys.push(("origin_m", list(&origin, PER_UNIT)));
-        let body = &biped.bodies[joint];
-        if body.mass > 0.0 {
-            keys.push(("mass_kg", number(body.mass, PER_UNIT)));
-            keys.push(("com_m", list(&(on_grid(body.com) - place), PER_UNIT)));
-            keys.push(("inertia_kg_m2", list(&body.inertia.diagonal(), PER_FINE_UNIT)));
-        }
-        if let Some(mapped) = &map.joints[joint] {
-            let [min, max] = hinge.range.map(|angle| number(angle.to_degrees(), PER_UNIT));
-            keys.push(("range_deg", format!("[{min}, {max}]")));
-            keys.push(("rate_max_deg_per_s", number(hinge.rate_max.to_degrees(), PER_UNIT)));
-            keys.push(("motor", quoted(&map.motors[mapped.motor].0)));
-        }
-        table(&mut text, &format!("joint.{}", joint.name()), &keys);
+        let role = Role::Leg(Side::BOTH[side], biped.roles[place]);
+        let here = grid.at(hinge.place);
+        let mut keys = body(&grid, carried, here);
+        keys.extend(drive(hinge, robot, map));
+        joint(&mut text, &role.name(), role.number(), &parent, &hinge.axis, at.to(here), keys);
+        (parent, at) = (role.name(), here);
+    }
+
+    let pelvis = Role::Leg(Side::Right, biped.roles[0]).name();
+    let pelvis_at = grid.at(biped.legs[0].hinges[0].place);
+    let places = biped.waist.map_or([biped.mount; 2], |waist| waist.map(|hinge| hinge.place));
+    let [pitch_at, roll_at] = places.map(|place| grid.at(place));
+    let axes = biped.waist.map_or([unused(Vector3::y()), unused(Vector3::x())], |waist| waist.map(|hinge| hinge.axis));
+    let drives = biped.waist.map(|waist| waist.map(|hinge| drive(&hinge, robot, map)));
+    let [pitch_drive, roll_drive] = drives.unwrap_or_default();
+    let keys = [body(&grid, &biped.middle, pitch_at), pitch_drive].concat();
+    joint(&mut text, "waist_pitch", 15, &pelvis, &axes[0], pelvis_at.to(pitch_at), keys);
+    let keys = [body(&grid, &biped.trunk, roll_at), roll_drive].concat();
+    joint(&mut text, "waist_roll", 16, "waist_pitch", &axes[1], pitch_at.to(roll_at), keys);
+    for role in Role::all().filter(|role| role.is_in_arm()) {
+        let parent = match role {
+            Role::Elbow(side) => Role::Shoulder(side).name(),
+            _ => Role::WaistRoll.name(),
+        };
+        let axis = unused(Vector3::y());
+        joint(&mut text, &role.name(), role.number(), &parent, &axis, roll_at.to(roll_at), Vec::new());
+    }
+    for &(index, angle) in header.held {
+        let keys = [("urdf", quoted(&robot.joints[index].name)), ("at_deg", number(angle.to_degrees(), COARSE))];
+        table(&mut text, "[[held]]", &keys);
     }
     text
 }
 
-fn motor_keys(motor: &DcMotor) -> Vec<(&'static str, String)> {
-    vec![
-        ("resistance_ohm", motor.resistance.to_string()),
-        ("torque_constant_n_m_per_a", motor.torque_constant.to_string()),
-        ("rotor_inertia_kg_m2", motor.rotor_inertia.to_string()),
-        ("gear_ratio", motor.gear_ratio.to_string()),
-        ("voltage_max_v", motor.voltage_max.to_string()),
-    ]
-}
-
-fn table(text: &mut String, name: &str, keys: &[(&str, String)]) {
-    // Writing into a text cannot fail.
-    let _ = writeln!(text, "\n[{name}]");
-    for (key, value) in keys {
-        let _ = writeln!(text, "{key} = {value}");
+/// Writes the tables of the map's motors.
+pub(super) fn write_motors(text: &mut String, map: &ImportMap) {
+    for (name, motor) in &map.motors {
+        let keys: Vec<(&str, String)> =
+            MOTOR_KEYS.iter().zip(motor.0).map(|((key, ..), value)| (*key, value.to_string())).collect();
+        table(text, &format!("[motor.{}]", quoted(name)), &keys);
     }
 }
 
-fn list(vector: &Vector3<f64>, per_unit: f64) -> String {
-    let [x, y, z] = [vector.x, vector.y, vector.z].map(|value| number(value, per_unit));
-    format!("[{x}, {y}, {z}]")
+type Keys = Vec<(&'static str, String)>;
+
+fn joint(
+    text: &mut String,
+    name: &str,
+    number: usize,
+    parent: &str,
+    axis: &Unit<Vector3<f64>>,
+    origin: String,
+    more: Keys,
+) {
+    let mut keys = vec![
+        ("number", number.to_string()),
+        ("parent", quoted(parent)),
+        ("axis", vector(axis, FINE)),
+        ("origin_m", origin),
+    ];
+    keys.extend(more);
+    table(text, &format!("[joint.{name}]"), &keys);
 }
 
-/// A rounded number; zero has no sign.
-fn number(value: f64, per_unit: f64) -> String {
-    ((value * per_unit).round() / per_unit + 0.0).to_string()
+/// Mass, centre of mass and inertia in the frame of a joint; nothing for a massless body.
+fn body(grid: &Grid, body: &Body, joint: OnGrid) -> Keys {
+    if body.mass < MASS_MIN {
+        return Vec::new();
+    }
+    let inertia = &body.inertia;
+    let greatest = inertia.amax();
+    let part = |row: usize, column: usize| {
+        let value = inertia[(row, column)];
+        // Rounding of the frames' rotations is no product of inertia.
+        if value.abs() < 1e-14 * greatest { 0.0 } else { value }
+    };
+    let mut moments: Vec<f64> = (0..3).map(|axis| part(axis, axis)).collect();
+    let products = [part(0, 1), part(0, 2), part(1, 2)];
+    if products.iter().any(|product| *product != 0.0) {
+        moments.extend(products);
+    }
+    vec![
+        ("mass_kg", number(body.mass, FINE)),
+        ("com_m", joint.to(grid.at(body.com))),
+        ("inertia_kg_m2", array(moments.into_iter().map(digits))),
+    ]
 }
 
-/// A TOML string.
-fn quoted(text: &str) -> String {
-    format!("{text:?}")
+/// Range, rate and torque or motor, and which joint of the URDF it is.
+fn drive(hinge: &Hinge, robot: &Robot, map: &ImportMap) -> Keys {
+    let drive = &hinge.drive;
+    let motor = drive.motor.and_then(|index| map.motors.get(index));
+    vec![
+        ("range_deg", array(drive.range.map(|angle| number(angle.to_degrees(), COARSE)))),
+        ("rate_max_deg_per_s", number(drive.rate_max.to_degrees(), COARSE)),
+        motor.map_or_else(|| ("effort_n_m", digits(drive.effort)), |(name, _)| ("motor", quoted(name))),
+        ("urdf", quoted(&robot.joints[hinge.urdf].name)),
+        ("urdf_sign", if hinge.sign < 0.0 { "-1" } else { "1" }.to_string()),
+    ]
+}
+
+/// Positions rounded in one frame, so that mirrored points stay mirrored and differences add up.
+struct Grid {
+    /// The point under the right ankle (m).
+    floor: Vector3<f64>,
+}
+
+/// A position in steps of the grid.
+#[derive(Clone, Copy)]
+struct OnGrid([i64; 3]);
+
+impl Grid {
+    fn at(&self, point: Vector3<f64>) -> OnGrid {
+        let point = point - Vector3::new(self.floor.x, 0.0, self.floor.z);
+        OnGrid([point.x, point.y, point.z].map(|value| (value * FINE).round() as i64))
+    }
+}
+
+impl OnGrid {
+    /// The way to another position, as an array.
+    fn to(self, other: OnGrid) -> String {
+        array((0..3).map(|axis| ((other.0[axis] - self.0[axis]) as f64 / FINE + 0.0).to_string()))
+    }
 }

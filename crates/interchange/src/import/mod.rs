@@ -1,66 +1,171 @@
-//! Imports another biped with the same joints from its URDF and a map of its joints: see `docs/import.md`.
+//! Imports another biped from its URDF: see `docs/import.md`.
 //!
-//! At zero angles all link frames of a mechanism are parallel. So the URDF is put into its straight posture; from then
-//! on joints are points and axes, and links are masses, in one frame. Whichever link the URDF's tree is rooted at, the
-//! mechanism's is rooted at the right foot.
+//! A URDF has a zero posture in which the robot stands straight. There, joints are points and axes, and links are
+//! masses, in one frame; what each joint does follows from its axis and its place in the tree, not from its name.
+//! Whichever link the URDF's tree is rooted at, the mechanism's is rooted at the right foot.
 //!
 //! ```text
-//! map ──┐
-//! URDF ─┴▶ link poses ─▶ topology ─▶ straight legs ─▶ symmetry ─▶ mechanism file
+//! URDF ─▶ links, joints ─▶ two legs ─▶ facing ─▶ roles, waist ─▶ biped ─▶ symmetry ─▶ mechanism file
+//! map (optional): name, sole, motors, other roles, held angles
 //! ```
 
+mod biped;
+mod body;
+mod body_graph;
+mod drive;
+mod facing;
 mod file_errors;
-mod joint_map;
-mod link_poses;
+mod import_map;
+mod leg_pair;
+mod leg_roles;
+mod map_text;
 mod mechanism_text;
-mod straight_biped;
-mod straight_legs;
+mod parts;
+mod plausibility;
+mod possible_moments;
+mod posture;
+mod range_pair;
+mod report;
+mod role;
+mod sole;
 mod symmetry;
-mod topology;
-mod urdf_text;
-
-use config::Config;
-use model::Mechanism;
+mod toml_text;
+mod urdf_format;
+mod urdf_numbers;
+mod urdf_reader;
+mod urdf_robot;
+mod urdf_tree;
+mod waist;
+mod xml_tree;
 
 pub use file_errors::{ImportError, NamedText};
-pub use joint_map::JointMap;
+pub use role::{LegRole, Role, Side};
 
+use body_graph::BodyGraph;
+use drive::Scale;
 use file_errors::FileErrors;
+use import_map::ImportMap;
+use mechanism_text::Header;
+use parts::Parts;
+use posture::{Poses, held_angles};
+use sole::contact_points;
+use urdf_robot::Robot;
 
 /// A biped imported from a URDF.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Imported {
-    /// The mechanism of the biped.
-    pub mechanism: Mechanism,
-    /// The text of its mechanism file.
+    /// Name of the robot.
+    pub name: String,
+    /// Mass (kg).
+    pub mass: f64,
+    /// Length of a stretched leg from hip to ankle (m).
+    pub leg: f64,
+    /// Height of the ankle above the sole (m).
+    pub ankle_height: f64,
+    /// The text of the mechanism file.
     pub text: String,
-    /// Differences from the URDF, one text each, for users.
-    pub changes: Vec<String>,
+    /// The text of a complete map, with everything that was found.
+    pub map: String,
+    /// The joints that have a role, with their names in the URDF, in the order of the mechanism's numbers.
+    pub roles: Vec<(Role, String)>,
+    /// What was taken, assumed, held and changed, one text each, for users.
+    pub lines: Vec<String>,
 }
 
-/// Imports a biped from its URDF; `map` tells which joint is which, and adds what a URDF lacks.
+/// Imports a biped from its URDF; `map` adds what a URDF lacks, such as soles, and may overrule what is found.
 ///
 /// # Errors
-/// All mistakes in the map, with their lines; else everything in the URDF that a mechanism cannot have, with link or
-/// joint, value, and remedy.
-pub fn import(urdf: NamedText, map: NamedText) -> Result<Imported, ImportError> {
-    let robot = urdf_text::read(urdf)?;
-    let map = JointMap::read(map, &robot).map_err(ImportError::new)?;
+/// All mistakes in the URDF's links and joints with their lines; else all mistakes in the map; else everything that a
+/// biped cannot have, with joint, value, and remedy.
+pub fn import(urdf: NamedText, map: Option<NamedText>) -> Result<Imported, ImportError> {
+    let robot = urdf_reader::read(urdf)?;
+    let read = map.map(|map| ImportMap::read(map, &robot)).transpose().map_err(ImportError::new)?;
+    let map = read.unwrap_or_default();
+    let mut errors = FileErrors::new(urdf.file);
+    let imported = import_robot(&robot, &map, urdf.file, &mut errors);
+    errors.finish(imported)
+}
 
-    let mut errors = FileErrors { file: urdf.file, errors: Vec::new() };
-    let biped = link_poses::straight(&robot, &map, &mut errors)
-        .and_then(|poses| topology::straight_biped(&robot, &map, &poses, &mut errors));
-    let mut biped = errors.finish(biped)?;
+/// The text of a complete map, with everything that an import finds: to be edited and given back.
+///
+/// # Errors
+/// Those of [`import`].
+pub fn print_map(urdf: NamedText, map: Option<NamedText>) -> Result<String, ImportError> {
+    import(urdf, map).map(|imported| imported.map)
+}
 
-    let mut errors = FileErrors { file: urdf.file, errors: Vec::new() };
-    let mut changes = std::mem::take(&mut biped.changes);
-    straight_legs::straighten(&mut biped, &map.idealise, &mut errors, &mut changes);
-    symmetry::symmetrise(&mut biped, &map.idealise, &mut errors, &mut changes);
-    biped.check_inertias(&map.idealise, &mut errors, &mut changes);
-    errors.finish(Some(()))?;
+fn import_robot(robot: &Robot, map: &ImportMap, file: &str, errors: &mut FileErrors) -> Option<Imported> {
+    let mut lines = Vec::new();
+    let is_held = |joint: usize| map.held.iter().any(|(held, _)| *held == joint);
+    let graph = BodyGraph::new(robot, |joint| robot.joints[joint].turns() && !is_held(joint));
 
-    let text = mechanism_text::write(&biped, &map, urdf.file);
-    let mechanism =
-        Mechanism::from_toml(&text, &format!("the mechanism read from {}", urdf.file)).map_err(ImportError::new)?;
-    Ok(Imported { mechanism, text, changes })
+    // where are the legs, and where does it face?
+    let mut zero = vec![0.0; robot.joints.len()];
+    map.held.iter().for_each(|(joint, angle)| zero[*joint] = *angle);
+    let poses = Poses::at(robot, &zero);
+    let legs = leg_pair::find(robot, map, &graph, &poses, errors)?;
+    let (graph, legs) = legs.with_upper_body(robot, &graph);
+    let facing = facing::find(robot, map, &legs, &graph.body_of, &poses, errors, &mut lines)?;
+    let sides = [facing.right, 1 - facing.right];
+
+    // what does each joint do?
+    let standing = poses.seen_from(&facing.root_to_stand);
+    let roles = leg_roles::find(robot, map, &legs, sides, &standing, errors);
+    let waist = waist::find(robot, map, &graph, &legs, &standing, errors);
+    let mut parts = Parts { robot, map, legs: &legs, sides, roles: roles?, waist: &waist, poses: &standing };
+    let used = parts.roles();
+    let mut angles = held_angles(robot, &map.held);
+    used.iter().for_each(|(_, joint)| angles[*joint] = 0.0);
+    let poses = Poses::at(robot, &angles).seen_from(&facing.root_to_stand);
+    parts.poses = &poses;
+    let is_used = |joint: usize| used.iter().any(|(_, own)| *own == joint);
+    let held: Vec<(usize, f64)> =
+        (0..robot.joints.len()).filter(|j| robot.joints[*j].turns() && !is_used(*j)).map(|j| (j, angles[j])).collect();
+    report::roles(robot, &used, sides.map(|leg| legs.joints[leg]), &waist, &mut lines);
+    report::held(robot, map, &held, &used, &mut lines);
+
+    // the robot itself
+    let scale = Scale { leg: parts.leg_length(), mass: robot.links.iter().map(|link| link.body.mass).sum() };
+    parts.check_straight(errors);
+    let biped = parts.biped(scale, errors, &mut lines);
+    plausibility::check(scale, robot, &biped.as_ref().map_or(Vec::new(), report::bodies), errors);
+    let mut biped = biped?;
+    symmetry::symmetrise(&mut biped, robot, errors, &mut lines);
+    possible_moments::repair(&mut biped, scale.leg, &mut lines);
+    let feet = sides.map(|leg| legs.bodies[leg][5]);
+    let sole = map.sole.or_else(|| {
+        let points = feet.map(|foot| contact_points(robot, &graph.body_of, foot, &poses.links));
+        sole::read_off(&points, [0, 1].map(|side| biped.ankle(side)), &robot.links[feet[0]].name, errors, &mut lines)
+    })?;
+    let name = name(robot, map, file, &mut lines);
+    if !errors.is_empty() {
+        return None;
+    }
+
+    let header = Header { name: &name, urdf: base_name(file), sole, held: &held };
+    lines.insert(0, format!("{name}: {:.3} kg, legs of {:.3} m", biped.mass(), scale.leg));
+    Some(Imported {
+        mass: biped.mass(),
+        leg: scale.leg,
+        ankle_height: sole.ankle_height,
+        text: mechanism_text::write(&biped, robot, map, &header),
+        map: map_text::write(robot, map, &used, &header),
+        roles: used.iter().map(|(role, joint)| (*role, robot.joints[*joint].name.clone())).collect(),
+        name,
+        lines,
+    })
+}
+
+/// The map's name of the robot, else the URDF's, else the file's.
+fn name(robot: &Robot, map: &ImportMap, file: &str, lines: &mut Vec<String>) -> String {
+    if let Some(name) = &map.name {
+        return name.clone();
+    }
+    let name = if robot.name.trim().is_empty() { base_name(file) } else { &robot.name };
+    lines.push(format!("the map tells no name: called {name}"));
+    name.to_string()
+}
+
+fn base_name(file: &str) -> &str {
+    file.rsplit(['/', '\\']).next().unwrap_or(file)
 }

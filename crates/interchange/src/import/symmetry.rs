@@ -1,138 +1,194 @@
-//! Makes the robot its own mirror image: each side becomes the mean of itself and the other side's image.
+//! Makes the robot its own mirror image: the controller always stands on the right foot and mirrors the rest.
 
-use model::{Joint, partner};
-use nalgebra::{Matrix3, Unit, Vector3};
+use nalgebra::{Unit, Vector3};
 
+use crate::import::biped::{Biped, Hinge};
+use crate::import::body::Body;
 use crate::import::file_errors::FileErrors;
-use crate::import::joint_map::Idealise;
-use crate::import::straight_biped::{LumpedBody, StraightBiped, carried, up};
+use crate::import::range_pair::{self, mirrored};
+use crate::import::role::{LegRole, Role, Side};
+use crate::import::urdf_robot::Robot;
 
-/// Rounding of a URDF's decimals (m, and share).
-const ROUNDING: f64 = 1e-9;
+/// Rounding of a URDF's decimals (m, rad, and share).
+const ROUNDING: f64 = 1e-6;
+/// From here on, every difference is printed: lengths (m) and shares of masses.
+const LENGTH_TOLD: f64 = 0.01;
+const MASS_TOLD: f64 = 0.03;
+/// What cannot be one robot any more: how far axes of right and left may differ (rad, m).
+const ANGLE_MAX: f64 = 0.035;
+const DISTANCE_MAX: f64 = 0.02;
 
-/// Puts the sagittal plane at y = 0 and makes both sides alike, as far as that is allowed.
-pub(super) fn symmetrise(
-    biped: &mut StraightBiped,
-    idealise: &Idealise,
+/// Makes both sides the mean of one and the mirror image of the other, and puts the middle at y = 0.
+pub(super) fn symmetrise(biped: &mut Biped, robot: &Robot, errors: &mut FileErrors, lines: &mut Vec<String>) {
+    let mut changes = Changes::default();
+    let [right, left] = biped.legs;
+    for (place, role) in biped.roles.into_iter().enumerate() {
+        let (own, other) = (right.hinges[place], left.hinges[place]);
+        let hinge = mean_hinge(role, [&own, &other], robot, errors, &mut changes, lines);
+        biped.legs[0].hinges[place] = hinge;
+        biped.legs[1].hinges[place] = Hinge {
+            urdf: other.urdf,
+            place: across(hinge.place),
+            axis: mirrored_axis(role, hinge.axis),
+            sign: other.sign,
+            drive: crate::import::drive::Drive {
+                range: mirrored(role, hinge.drive.range),
+                motor: other.drive.motor,
+                ..hinge.drive
+            },
+        };
+        let (own, image) = (right.bodies[place], left.bodies[place].mirrored());
+        let mean = own.mean(&image);
+        changes.body(&own, &mean, &format!("the body below the {}", role.name()));
+        biped.legs[0].bodies[place] = mean;
+        biped.legs[1].bodies[place] = mean.mirrored();
+    }
+    for (body, name) in [(&mut biped.pelvis, "pelvis"), (&mut biped.middle, "waist"), (&mut biped.trunk, "trunk")] {
+        let mean = body.mean(&body.mirrored());
+        changes.body(body, &mean, &format!("the {name}"));
+        *body = mean;
+    }
+    biped.mount.y = 0.0;
+    if let Some(waist) = &mut biped.waist {
+        for (hinge, axis, name) in waist.iter_mut().zip([1, 0]).map(|(hinge, axis)| {
+            let name = if axis == 1 { Role::WaistPitch.name() } else { Role::WaistRoll.name() };
+            (hinge, axis, name)
+        }) {
+            middle_hinge(hinge, axis, &name, &mut changes);
+        }
+    }
+    changes.lines(lines);
+}
+
+/// The mean of a joint of the right leg and the mirror image of the left one's.
+fn mean_hinge(
+    role: LegRole,
+    [own, other]: [&Hinge; 2],
+    robot: &Robot,
     errors: &mut FileErrors,
-    changes: &mut Vec<String>,
-) {
-    let plane = 0.5 * (biped.hinges[Joint::RightHipYaw].place.y + biped.hinges[Joint::LeftHipYaw].place.y);
-    for joint in Joint::ALL {
-        biped.hinges[joint].place.y -= plane;
-        biped.bodies[joint].com.y -= plane;
+    changes: &mut Changes,
+    lines: &mut Vec<String>,
+) -> Hinge {
+    let name = role.name();
+    let image_axis = mirrored_axis(role, other.axis);
+    let axis = Unit::new_normalize(own.axis.into_inner() + image_axis.into_inner());
+    let image = across(other.place);
+    let (angle, off) = (own.axis.angle(&image_axis), across_axis(&axis, own.place - image));
+    if angle > ANGLE_MAX || off > DISTANCE_MAX {
+        let joints = [own, other].map(|hinge| &robot.joints[hinge.urdf]);
+        errors.note_at(
+            joints[0].line,
+            format!(
+                "joints {} and {} as {name} of right and left leg: their axes must be mirror images of each other; \
+                 they differ by {:.2}° and {:.1} mm, and may by 2° and 20 mm",
+                joints[0].name,
+                joints[1].name,
+                angle.to_degrees(),
+                off * 1e3
+            ),
+        );
     }
-    // Moving a pitch joint of the waist along its axis changes nothing.
-    for joint in [Joint::WaistPitch, Joint::WaistRoll] {
-        if biped.hinges[joint].axis == Vector3::y_axis() {
-            biped.hinges[joint].place.y = 0.0;
-        }
-    }
-
-    let original = biped.clone();
-    let mut greatest = Greatest::default();
-    for joint in Joint::ALL.into_iter().filter(|joint| joint.is_powered()) {
-        let (own, other) = (&original.hinges[joint], &original.hinges[partner(joint)]);
-        let hinge = &mut biped.hinges[joint];
-        hinge.place = (own.place + across(other.place)) / 2.0;
-        greatest.length((own.place - hinge.place).norm(), || joint.name().to_string());
-
-        // The mirror image of a rotation has the opposite sign. An axis has no direction of its own: as everywhere in
-        // this module, its greatest component is positive.
-        let image = -across(other.axis.into_inner());
-        let image = if image.dot(&own.axis) < 0.0 { -image } else { image };
-        hinge.axis = Unit::new_normalize(own.axis.into_inner() + image);
-        greatest.share(own.axis.cross(&image).norm(), || format!("the axis of {}", joint.name()));
-
-        // Mirroring reverses rotations about x and z; the legs' chains, one down and one up, reverse all once more.
-        let same_sense = (hinge.axis.y.abs() > 0.5) != joint.is_in_leg();
-        let range = if same_sense { other.range } else { [-other.range[1], -other.range[0]] };
-        hinge.range = [own.range[0].max(range[0]), own.range[1].min(range[1])];
-        let less = (own.range[0] - hinge.range[0]).abs().max((own.range[1] - hinge.range[1]).abs());
-        if less > ROUNDING {
-            changes.push(format!("{}: range {:.2}° less, as the other side's", joint.name(), less.to_degrees()));
-        }
-        hinge.rate_max = own.rate_max.min(other.rate_max);
-    }
-    for joint in Joint::ALL {
-        let (own, other) = (&original.bodies[joint], &original.bodies[carried_by_partner(joint)]);
-        let flip = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, 1.0));
-        let image = LumpedBody { mass: other.mass, com: across(other.com), inertia: flip * other.inertia * flip };
-        let body = &mut biped.bodies[joint];
-        body.mass = (own.mass + image.mass) / 2.0;
-        body.com = (own.com + image.com) / 2.0;
-        body.inertia = (own.inertia + image.inertia) / 2.0;
-        if body.mass > 0.0 {
-            greatest.length((own.com - body.com).norm(), || format!("the centre of mass of {}", carried(joint)));
-            greatest.share((own.mass - body.mass).abs() / body.mass, || format!("the mass of {}", carried(joint)));
-            let moment = body.inertia.diagonal().max();
-            let off = (own.inertia - body.inertia).diagonal().amax();
-            greatest
-                .share(if moment > 0.0 { off / moment } else { 0.0 }, || format!("the moments of {}", carried(joint)));
-        }
-    }
-    greatest.judge(idealise, errors, changes);
+    let place = (own.place + image) / 2.0;
+    changes.length(across_axis(&axis, own.place - place), &format!("the {name} axis"));
+    changes.angle(own.axis.angle(&axis), &format!("the {name} axis"));
+    let drive = range_pair::mean(role, &own.drive, &other.drive, errors, lines);
+    Hinge { place, axis, drive, ..*own }
 }
 
-/// The greatest differences from the mean of both sides.
-#[derive(Default)]
-struct Greatest {
-    length: (f64, String),
-    share: (f64, String),
+fn middle_hinge(hinge: &mut Hinge, axis: usize, name: &str, changes: &mut Changes) {
+    let before = *hinge;
+    hinge.place.y = 0.0;
+    let mut direction = hinge.axis.into_inner();
+    if axis == 1 {
+        direction = Vector3::y();
+    } else {
+        direction.y = 0.0;
+    }
+    hinge.axis = Unit::new_normalize(direction);
+    changes.length(across_axis(&hinge.axis, before.place - hinge.place), &format!("the {name} axis"));
+    changes.angle(before.axis.angle(&hinge.axis), &format!("the {name} axis"));
 }
 
-impl Greatest {
-    fn length(&mut self, value: f64, of: impl Fn() -> String) {
-        if value > self.length.0 {
-            self.length = (value, of());
-        }
-    }
+/// The mirror image of an axis in the plane y = 0, its role's component positive as before. Rotations about an image
+/// have the opposite sign, and an axis has no direction of its own.
+fn mirrored_axis(role: LegRole, axis: Unit<Vector3<f64>>) -> Unit<Vector3<f64>> {
+    let image = Vector3::new(-axis.x, axis.y, -axis.z);
+    Unit::new_unchecked(if role.axis() == 1 { image } else { -image })
+}
 
-    fn share(&mut self, value: f64, of: impl Fn() -> String) {
-        if value > self.share.0 {
-            self.share = (value, of());
-        }
-    }
-
-    fn judge(&self, idealise: &Idealise, errors: &mut FileErrors, changes: &mut Vec<String>) {
-        let ((length, long), (share, large)) = (&self.length, &self.share);
-        if *length > idealise.asymmetry_max.max(ROUNDING) {
-            errors.note(format!(
-                "{long} is {:.2} mm off its mean with the other side's mirror image; both sides must be alike: allow \
-                 to \
-                 take the mean with idealise.asymmetry_max_m = {}",
-                length * 1e3,
-                up(*length, 1e5)
-            ));
-        } else if *length > ROUNDING {
-            changes.push(format!("made symmetric: nothing moves more than {:.2} mm ({long})", length * 1e3));
-        }
-        if *share > idealise.asymmetry_share_max.max(ROUNDING) {
-            errors.note(format!(
-                "{large}: {share:.4} off the mean with the other side; both sides must be alike: allow to take \
-                 the mean with idealise.asymmetry_max_share = {}",
-                up(*share, 1e4)
-            ));
-        } else if *share > ROUNDING {
-            changes.push(format!(
-                "made symmetric: no mass or moment of inertia changed by more than {share:.4} of its value ({large})"
-            ));
-        }
-    }
+/// The part of a vector across an axis (m).
+fn across_axis(axis: &Unit<Vector3<f64>>, vector: Vector3<f64>) -> f64 {
+    axis.cross(&vector).norm()
 }
 
 fn across(vector: Vector3<f64>) -> Vector3<f64> {
     Vector3::new(vector.x, -vector.y, vector.z)
 }
 
-/// The joint that carries the mirror image of the link that `joint` carries: the tree goes up the right leg and down
-/// the left one, so that in the legs it is not the partner of `joint`.
-fn carried_by_partner(joint: Joint) -> Joint {
-    match joint {
-        Joint::FootRoll => joint,
-        Joint::FootPitch => Joint::LeftAnkleRoll,
-        Joint::LeftAnkleRoll => Joint::FootPitch,
-        _ if joint.is_in_leg() => partner(Joint::ALL[joint.index() + 1]),
-        _ => partner(joint),
+/// How far the robot was changed.
+#[derive(Default)]
+struct Changes {
+    length: (f64, String),
+    angle: (f64, String),
+    mass: (f64, String),
+    moment: (f64, String),
+    large: Vec<String>,
+}
+
+impl Changes {
+    fn length(&mut self, value: f64, of: &str) {
+        if value > self.length.0 {
+            self.length = (value, of.to_string());
+        }
+        if value > LENGTH_TOLD / 2.0 {
+            self.large.push(format!("{of} differs by {:.1} mm", 2e3 * value));
+        }
+    }
+
+    fn angle(&mut self, value: f64, of: &str) {
+        if value > self.angle.0 {
+            self.angle = (value, of.to_string());
+        }
+    }
+
+    fn body(&mut self, before: &Body, after: &Body, of: &str) {
+        if after.mass == 0.0 {
+            return;
+        }
+        self.length((before.com - after.com).norm(), &format!("the centre of mass of {of}"));
+        let share = (before.mass - after.mass).abs() / after.mass;
+        if share > self.mass.0 {
+            self.mass = (share, format!("the mass of {of}"));
+        }
+        let moment = (before.inertia - after.inertia).amax() / after.inertia.diagonal().amax();
+        if moment > self.moment.0 {
+            self.moment = (moment, format!("that of {of}"));
+        }
+        if 2.0 * share > MASS_TOLD {
+            self.large.push(format!("the mass of {of} differs by {:.1} %", 200.0 * share));
+        }
+    }
+
+    fn lines(self, lines: &mut Vec<String>) {
+        let (mut parts, none) = (Vec::new(), ROUNDING);
+        let Changes { length, angle, mass, moment, large } = self;
+        if length.0 > none {
+            parts.push(format!("no point moved by more than {:.3} mm ({})", 1e3 * length.0, length.1));
+        }
+        if angle.0 > none {
+            parts.push(format!("no axis turned by more than {:.4}° ({})", angle.0.to_degrees(), angle.1));
+        }
+        if mass.0 > none {
+            parts.push(format!("no mass changed by more than {:.3} % ({})", 100.0 * mass.0, mass.1));
+        }
+        if moment.0 > none {
+            let percent = 100.0 * moment.0;
+            parts.push(format!("no inertia changed by more than {percent:.3} % of its greatest moment ({})", moment.1));
+        }
+        if !parts.is_empty() {
+            lines.push(format!("made symmetric: {}", parts.join("; ")));
+        }
+        let sides = [Side::Right.name(), Side::Left.name()].join(" and ");
+        lines.extend(large.into_iter().map(|what| format!("large difference of {sides}, the mean is taken: {what}")));
     }
 }

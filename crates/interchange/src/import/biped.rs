@@ -1,0 +1,68 @@
+//! A biped standing straight: joints as points and axes, bodies between them, all in one frame: x ahead, y left, z up,
+//! y = 0 in the middle between the legs.
+
+use nalgebra::{Unit, Vector3};
+
+use crate::import::body::Body;
+use crate::import::drive::Drive;
+use crate::import::role::LegRole;
+
+/// A joint as a point and an axis.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hinge {
+    /// Index among the URDF's joints.
+    pub urdf: usize,
+    /// A point on the axis (m): the URDF's origin of the joint.
+    pub place: Vector3<f64>,
+    /// Axis about which the body that the joint carries turns, the component of its role positive.
+    pub axis: Unit<Vector3<f64>>,
+    /// Angle in the URDF = sign · angle about `axis`.
+    pub sign: f64,
+    /// Range, rate and torque; the range about `axis`.
+    pub drive: Drive,
+}
+
+/// A leg from the pelvis down.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Leg {
+    pub hinges: [Hinge; 6],
+    /// The body below each joint; the last is the foot.
+    pub bodies: [Body; 6],
+}
+
+/// The biped.
+#[derive(Clone, Debug)]
+pub(super) struct Biped {
+    /// What the joints of both legs do, from the pelvis down.
+    pub roles: [LegRole; 6],
+    /// Right and left leg.
+    pub legs: [Leg; 2],
+    /// The body on which the legs hang; massless where that is the trunk.
+    pub pelvis: Body,
+    /// The joints that pitch and roll the trunk.
+    pub waist: Option<[Hinge; 2]>,
+    /// Where the trunk is mounted if there is no such waist (m).
+    pub mount: Vector3<f64>,
+    /// The body between the two joints of the waist, and the trunk with arms and head.
+    pub middle: Body,
+    pub trunk: Body,
+}
+
+impl Biped {
+    /// A joint of a leg by its role.
+    pub(super) fn hinge(&self, side: usize, role: LegRole) -> &Hinge {
+        &self.legs[side].hinges[self.roles.iter().position(|own| *own == role).unwrap_or_default()]
+    }
+
+    /// The ankle of a foot: x and z of the pitch axis, y of the roll axis (m).
+    pub(super) fn ankle(&self, side: usize) -> Vector3<f64> {
+        let (pitch, roll) = (self.hinge(side, LegRole::AnklePitch).place, self.hinge(side, LegRole::AnkleRoll).place);
+        Vector3::new(pitch.x, roll.y, pitch.z)
+    }
+
+    /// Mass (kg).
+    pub(super) fn mass(&self) -> f64 {
+        let legs: f64 = self.legs.iter().flat_map(|leg| leg.bodies).map(|body| body.mass).sum();
+        legs + self.pelvis.mass + self.middle.mass + self.trunk.mass
+    }
+}

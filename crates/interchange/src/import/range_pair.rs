@@ -1,0 +1,82 @@
+//! Range, rate and torque that both sides share.
+
+use crate::import::drive::Drive;
+use crate::import::file_errors::FileErrors;
+use crate::import::role::LegRole;
+
+/// Rounding of a URDF's angles (rad).
+const ROUNDING: f64 = 2e-4;
+/// How far two ranges that are each other's reverse may differ (rad).
+const SAME: f64 = 0.02;
+
+/// The range of the mirrored joint on the other side. Up the right leg and down the left one, pitch changes its sign,
+/// roll and yaw keep it.
+pub(super) fn mirrored(role: LegRole, range: [f64; 2]) -> [f64; 2] {
+    if role.axis() == 1 { reversed(range) } else { range }
+}
+
+fn reversed([low, high]: [f64; 2]) -> [f64; 2] {
+    [-high, -low]
+}
+
+/// What both sides can do, in the right one's sign: the range that they share, the smaller rate, the smaller torque.
+pub(super) fn mean(
+    role: LegRole,
+    right: &Drive,
+    left: &Drive,
+    errors: &mut FileErrors,
+    lines: &mut Vec<String>,
+) -> Drive {
+    let name = role.name();
+    let (own, image) = (right.range, mirrored(role, left.range));
+    let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) < SAME;
+    let shared = [own[0].max(image[0]), own[1].min(image[1])];
+    let words = |[low, high]: [f64; 2]| format!("{:.1}° to {:.1}°", low.to_degrees(), high.to_degrees());
+    let range = if !near(own, image) && near(own, reversed(image)) && bends(role) != 0.0 {
+        // One side's signs are wrong.
+        let natural = bends(role) * (own[0] + own[1]) > 0.0;
+        let (taken, wrong) = if natural { (own, "left") } else { (image, "right") };
+        lines.push(format!(
+            "{name}: the URDF's ranges of right and left contradict each other, as if the {wrong} one's axis had the \
+             wrong sign; taken {} for the right one, the way such a joint bends",
+            words(taken)
+        ));
+        taken
+    } else {
+        if shared[0] >= shared[1] {
+            let (own, image) = (words(own), words(image));
+            errors.note(format!("{name}: right and left share no range: right {own}, left, mirrored, {image}"));
+        } else if !near_exactly(own, image) {
+            let (own, image, shared) = (words(own), words(image), words(shared));
+            lines
+                .push(format!("{name}: range {shared}, which both sides share (right {own}, left, mirrored, {image})"));
+        }
+        shared
+    };
+    let differ = |a: f64, b: f64| (a - b).abs() > 1e-6 * a.max(b);
+    let (rate_max, effort) = (right.rate_max.min(left.rate_max), right.effort.min(left.effort));
+    if differ(right.rate_max, left.rate_max) {
+        lines.push(format!("{name}: rate {:.1} °/s, the smaller one of both sides", rate_max.to_degrees()));
+    }
+    if differ(right.effort, left.effort) && right.motor.is_none() {
+        lines.push(format!("{name}: torque {effort} N·m, the smaller one of both sides"));
+    }
+    if right.motor != left.motor {
+        errors.note(format!("{name}: right and left must have the same motor in the map, or both none"));
+    }
+    Drive { range, rate_max, effort, motor: right.motor }
+}
+
+fn near_exactly(a: [f64; 2], b: [f64; 2]) -> bool {
+    (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) < ROUNDING
+}
+
+/// To which side a joint of the right leg bends farther: knees backward (negative), hips forward and outward, ankles
+/// with the toes up; 0 if nobody can tell.
+fn bends(role: LegRole) -> f64 {
+    match role {
+        LegRole::Knee => -1.0,
+        LegRole::HipPitch | LegRole::HipRoll | LegRole::AnklePitch => 1.0,
+        LegRole::HipYaw | LegRole::AnkleRoll => 0.0,
+    }
+}
