@@ -77,10 +77,11 @@ pub(super) fn files() -> Vec<File> {
 
 fn imported(urdf: &str, map: &str) -> Result<Loaded, String> {
     let (urdf, map) = (NamedText { text: urdf, file: "f" }, NamedText { text: map, file: "f" });
-    match import(urdf, map) {
-        Ok(imported) => Ok(Loaded::Mechanism(Box::new(imported.mechanism))),
-        Err(error) => Err(error.to_string()),
-    }
+    let imported = import(urdf, Some(map)).map_err(|error| error.to_string())?;
+    // What the importer accepts, the loader must take.
+    let mechanism =
+        Mechanism::from_toml(&imported.text, "f").unwrap_or_else(|error| panic!("{error}\n{}", imported.text));
+    Ok(Loaded::Mechanism(Box::new(mechanism)))
 }
 
 /// Our robot as a URDF.
@@ -96,7 +97,6 @@ fn map() -> String {
         let name = joint.name();
         let (motor, rate) = if joint >= Joint::RightShoulder { ("arm", 600) } else { ("leg", 500) };
         map += &format!("[joint.{name}]\nurdf = \"{name}\"\nmotor = \"{motor}\"\nrate_max_deg_per_s = {rate}\n");
-        map += "straight_deg = 0\n";
     }
     map + "[idealise]\naxes_moved_max_m = 0.001\nproducts_of_inertia_max_share = 0.001\nasymmetry_max_m = 0.001\n\
            asymmetry_max_share = 0.001\n"

@@ -28,6 +28,17 @@ pub fn repository() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the repository").to_path_buf()
 }
 
+/// A folder of `../shared`, where tests find what the repository does not hold, such as public robots. `None` where it
+/// does not exist, with a line on stderr that says what was not tested.
+pub fn shared(name: &str) -> Option<PathBuf> {
+    let folder = repository().parent()?.join("shared").join(name);
+    if folder.is_dir() {
+        return Some(folder);
+    }
+    eprintln!("{} does not exist: not tested with it", folder.display());
+    None
+}
+
 /// `config/mechanism.toml`.
 pub fn mechanism() -> Mechanism {
     Mechanism::load(repository().join("config/mechanism.toml")).expect("the committed mechanism loads")

@@ -51,3 +51,13 @@ pub(crate) fn write_files(folder: &Path, files: &[(&str, String)]) -> Result<(),
     }
     Ok(())
 }
+
+/// Quotes a word for the shell.
+pub(crate) fn quoted(word: &str) -> String {
+    let plain = |character: char| character.is_ascii_alphanumeric() || "/._-+=:,@".contains(character);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}

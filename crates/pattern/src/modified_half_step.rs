@@ -1,12 +1,12 @@
 //! The modified half-step: where turn and step extension put pelvis and swing sole.
 //!
 //! The paper adds offsets to hip and ankle joints (eqs. 1 and 2). What they do to its robot holds for any leg, seen as
-//! a line from hip to ankle:
+//! a line from hip to ankle.
 //!
-//! * A **turn** rotates each leg about itself as seen from ahead: the pelvis about the support leg, the swing foot about
-//!   the swing leg.
-//! * An **extension** swings each leg about its ankle (support) or its hip (swing), in the plane of the leg; pelvis and
-//!   foot keep their orientation.
+//! * A **turn** rotates each leg about itself as seen from ahead: the pelvis about the support leg, the swing foot
+//!   about the swing leg.
+//! * An **extension** swings each leg about its ankle (support) or its hip (swing), in the plane of the leg; pelvis
+//!   and foot keep their orientation.
 //!
 //! The legs follow by inverse kinematics. For the paper's robot that gives the paper's offsets, to rounding.
 

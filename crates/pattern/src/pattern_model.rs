@@ -14,7 +14,8 @@ use crate::proportions::PatternProportions;
 pub(crate) const KNOTS_PREVIEWED: usize = 180;
 /// Knots over which the dynamics filter looks ahead: 1 s, after which e^(−3) is left of an influence.
 pub(crate) const KNOTS_FILTERED: usize = 100;
-/// Cost of a jerk against a ZMP error for the paper's robot (m²/(m/s³)²); smaller tracks closer and moves the body more suddenly.
+/// Cost of a jerk against a ZMP error for the paper's robot (m²/(m/s³)²); smaller tracks closer and moves the body more
+/// suddenly.
 const JERK_WEIGHT: f64 = 1e-8;
 
 /// What does not change while the robot walks.

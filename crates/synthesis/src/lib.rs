@@ -9,6 +9,7 @@
 
 mod arms;
 mod error;
+mod fitted;
 mod fourier;
 mod gait_recording;
 mod jet;
@@ -26,6 +27,7 @@ mod stick_figure;
 mod synthesize;
 
 pub use error::SynthesisError;
+pub use fitted::{FittedHalfStep, fit_half_step};
 pub use gait_recording::{GaitRecording, GaitRecordingError};
 pub use leg_pattern::LegPattern;
 pub use parameters::{Balance, SynthesisParameters};

@@ -1,30 +1,43 @@
-//! `halfstep import`: another biped from its URDF.
+//! `halfstep import`: another biped from its URDF, as a complete configuration folder.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use interchange::import::{NamedText, import};
-use model::{Joint, Mechanism};
+use config::Config;
+use interchange::import::{Imported, NamedText, import, print_map};
+use interchange::scaled_parameters::{controller_text, plant_text};
+use model::Mechanism;
 use serde::Serialize;
+use synthesis::{FittedHalfStep, fit_half_step};
 
 use crate::error::CliError;
-use crate::output::{print_json, print_line};
+use crate::output::{print_json, print_line, quoted, write_files};
 use crate::status::Status;
 
-/// Import a biped from its URDF into a configuration folder (without its nominal half-step)
+/// Parameters of the paper's robot, from which those of others are scaled.
+const CONTROLLER: &str = include_str!("../../../../config/controller.toml");
+const PLANT: &str = include_str!("../../../../config/plant.toml");
+const REALTIME: &str = include_str!("../../../../config/realtime.toml");
+/// The URDF's name in the folder.
+const URDF: &str = "robot.urdf";
+
+/// Import a biped from its URDF into a configuration folder from which it walks
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct ImportArgs {
     /// URDF of the biped
     urdf: PathBuf,
-    /// Joint map: URDF joints, soles and motors; see docs/import.md
+    /// What a URDF lacks, name and sole, and what is to be other than found; see docs/import.md
     #[arg(long, value_name = "FILE")]
-    map: PathBuf,
-    /// Folder to write mechanism.toml into, and controller.toml, plant.toml and realtime.toml if it has none
-    #[arg(long, value_name = "DIR")]
-    out: PathBuf,
-    /// Folder to take controller.toml, plant.toml and realtime.toml from
-    #[arg(long, value_name = "DIR", default_value = "config")]
-    parameters: PathBuf,
+    map: Option<PathBuf>,
+    /// Folder to write: mechanism, nominal half-step, parameters, and a copy of the URDF
+    #[arg(long, value_name = "DIR", required_unless_present = "print_map")]
+    out: Option<PathBuf>,
+    /// Print the map with all roles that are found, and write nothing
+    #[arg(long)]
+    print_map: bool,
+    /// Replace another robot in the folder
+    #[arg(long)]
+    force: bool,
 }
 
 /// Result of the import.
@@ -33,42 +46,55 @@ struct ImportReport {
     name: String,
     mass_kg: f64,
     leg_m: f64,
-    changes: Vec<String>,
+    /// What was taken, assumed, held and changed.
+    notes: Vec<String>,
+    step_length_m: f64,
+    half_step_s: f64,
+    zmp_residual_mm: f64,
+    /// Largest share of a torque or rate limit that the half-step needs, and where.
+    load_share: f64,
+    load_joint: &'static str,
     written: Vec<PathBuf>,
-    synthesize: String,
+    walk: String,
 }
 
 impl ImportArgs {
     pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
-        let (urdf, map) = (read(&self.urdf)?, read(&self.map)?);
-        let (urdf_file, map_file) = (self.urdf.display().to_string(), self.map.display().to_string());
-        let imported = import(NamedText { text: &urdf, file: &urdf_file }, NamedText { text: &map, file: &map_file })?;
-
-        let mechanism_file = self.out.join("mechanism.toml");
-        fs::create_dir_all(&self.out).map_err(CliError::file(&self.out))?;
-        fs::write(&mechanism_file, &imported.text).map_err(CliError::file(&mechanism_file))?;
-        let mut written = vec![mechanism_file];
-        for name in ["controller.toml", "plant.toml", "realtime.toml"] {
-            let (from, to) = (self.parameters.join(name), self.out.join(name));
-            if !to.exists() {
-                fs::copy(&from, &to).map_err(CliError::file(&from))?;
-                written.push(to);
-            }
+        let urdf = read(&self.urdf)?;
+        let map = self.map.as_deref().map(read).transpose()?;
+        let (urdf_file, map_file) = (name_of(&self.urdf), self.map.as_deref().map(name_of).unwrap_or_default());
+        let urdf_text = NamedText { text: &urdf, file: &urdf_file };
+        let map_text = map.as_deref().map(|text| NamedText { text, file: &map_file });
+        if self.print_map {
+            print_line(print_map(urdf_text, map_text)?.trim_end())?;
+            return Ok(Status::Success);
         }
+        let Some(out) = self.out else { return Err(CliError::bad_input("--out must name a folder")) };
 
-        let mechanism = imported.mechanism;
-        let report = ImportReport {
-            mass_kg: mechanism.mass(),
-            leg_m: leg_length(&mechanism),
-            synthesize: synthesize_line(&mechanism, &self.out),
-            name: mechanism.name,
-            changes: imported.changes,
-            written,
-        };
+        let imported = import(NamedText { text: &urdf, file: URDF }, map_text)
+            .map_err(|error| CliError::bad_input(error.to_string().replace(URDF, &urdf_file)))?;
+        let mechanism_file = out.join("mechanism.toml").display().to_string();
+        let mechanism = Mechanism::from_toml(&imported.text, &mechanism_file).map_err(CliError::bad_input)?;
+        let fitted = fit_half_step(&mechanism).map_err(CliError::bad_input)?;
+        let files = [
+            ("mechanism.toml", imported.text.clone()),
+            ("nominal_half_step.csv", fitted.synthesis.table.to_csv().map_err(CliError::bad_input)?),
+            ("controller.toml", controller_text(CONTROLLER, &mechanism)),
+            ("plant.toml", plant_text(PLANT, &mechanism)),
+            ("realtime.toml", REALTIME.to_owned()),
+            (URDF, urdf.clone()),
+        ];
+        if !self.force {
+            keep_another(&out, &files)?;
+        }
+        write_files(&out, &files)?;
+
+        let written = files.iter().map(|(name, _)| out.join(name)).collect();
+        let report = ImportReport::new(imported, &fitted, written, &out);
         if json {
             print_json(&report)?;
         } else {
-            print_line(in_words(&report))?;
+            print_line(report.in_words())?;
         }
         Ok(Status::Success)
     }
@@ -78,44 +104,65 @@ fn read(file: &Path) -> Result<String, CliError> {
     config::read_text(file).map_err(CliError::bad_input)
 }
 
-/// Hip to ankle of the stretched leg (m).
-fn leg_length(mechanism: &Mechanism) -> f64 {
-    [Joint::LeftKnee, Joint::LeftAnklePitch].iter().map(|joint| mechanism.links[*joint].origin.norm()).sum()
+fn name_of(file: &Path) -> String {
+    file.display().to_string()
 }
 
-/// A command that makes a half-step for this leg length: lengths scale as the leg, times as its square root (Froude's
-/// law).
-fn synthesize_line(mechanism: &Mechanism, folder: &Path) -> String {
-    /// Leg length of the robot for which the defaults were chosen (m).
-    const DEFAULT_LEG: f64 = 0.856;
-    /// Height of its ankle above the sole (m).
-    const DEFAULT_ANKLE: f64 = 0.07;
-    let default = synthesis::SynthesisParameters::default();
-    let leg = leg_length(mechanism);
-    let scale = leg / DEFAULT_LEG;
-    let hip_height = mechanism.sole.ankle_height + (default.hip_height - DEFAULT_ANKLE) * scale;
-    let folder = folder.display();
-    format!(
-        "halfstep synthesize --mechanism {folder}/mechanism.toml --out {folder}/nominal_half_step.csv --step-length \
-         {:.3} \
-         --duration {:.2} --clearance {:.3} --hip-height {hip_height:.3} --pelvis-sway {:.3} --pelvis-setback {:.3} \
-         --pendulum-height {:.3}",
-        default.step_length * scale,
-        default.duration * scale.sqrt(),
-        default.clearance * scale,
-        default.pelvis_sway * scale,
-        default.pelvis_setback * scale,
-        default.pendulum_height * scale,
-    )
+/// Refuses to replace the files of another robot.
+fn keep_another(folder: &Path, files: &[(&str, String)]) -> Result<(), CliError> {
+    let other = files.iter().map(|(name, text)| (folder.join(name), text)).find(|(file, text)| {
+        // What cannot be read cannot be replaced either: writing says why.
+        fs::read(file).is_ok_and(|existing| existing != text.as_bytes())
+    });
+    match other {
+        Some((file, _)) => Err(CliError::bad_input(format!(
+            "{}: holds something else; name another folder with --out, or replace it with --force",
+            file.display()
+        ))),
+        None => Ok(()),
+    }
 }
 
-fn in_words(report: &ImportReport) -> String {
-    let mut text = format!("{}: {:.2} kg, legs of {:.3} m\n", report.name, report.mass_kg, report.leg_m);
-    for change in &report.changes {
-        text += &format!("  {change}\n");
+impl ImportReport {
+    fn new(imported: Imported, fitted: &FittedHalfStep, written: Vec<PathBuf>, folder: &Path) -> Self {
+        let (load_share, joint) = fitted.load;
+        Self {
+            name: imported.name,
+            mass_kg: imported.mass,
+            leg_m: imported.leg,
+            notes: imported.lines,
+            step_length_m: fitted.parameters.step_length,
+            half_step_s: fitted.parameters.duration,
+            zmp_residual_mm: fitted.synthesis.report.residual * 1e3,
+            load_share,
+            load_joint: joint.name(),
+            written,
+            walk: format!("halfstep walk --config {}", quoted(&folder.display().to_string())),
+        }
     }
-    for file in &report.written {
-        text += &format!("written to {}\n", file.display());
+
+    fn in_words(&self) -> String {
+        let mut text = String::new();
+        for (index, note) in self.notes.iter().enumerate() {
+            text += &format!("{}{note}\n", if index == 0 { "" } else { "  " });
+        }
+        text += &format!(
+            "half-step of {:.3} m in {:.2} s: ZMP within {:.3} mm of the ankle, {} needs {:.0} % of its limit\n",
+            self.step_length_m,
+            self.half_step_s,
+            self.zmp_residual_mm,
+            self.load_joint,
+            self.load_share * 100.0
+        );
+        if self.load_share > 1.0 {
+            text += &format!(
+                "  {} is too weak for any half-step that was tried: it will yield, and requests are limited\n",
+                self.load_joint
+            );
+        }
+        for file in &self.written {
+            text += &format!("written to {}\n", file.display());
+        }
+        text + &self.walk
     }
-    text + &format!("make its half-step next, for example:\n  {}", report.synthesize)
 }

@@ -12,7 +12,7 @@ use serde::Serialize;
 use synthesis::{Balance, GaitRecording, LegPattern, SynthesisParameters, SynthesisReport, synthesize};
 
 use crate::error::CliError;
-use crate::output::{print_json, print_line, write_files};
+use crate::output::{print_json, print_line, quoted, write_files};
 use crate::status::Status;
 
 /// Synthesize the nominal half-step: prescribed or recorded legs, and the trunk that keeps the ZMP under the ankle
@@ -188,16 +188,6 @@ impl ParameterOptions {
         .chain([("intervals", self.intervals.map(|intervals| intervals.to_string()))])
         .chain([("balance", self.balance.and_then(|balance| Some(balance.to_possible_value()?.get_name().to_owned())))])
         .filter_map(|(option, value)| Some((option, value?)))
-    }
-}
-
-/// Quotes a word for the shell.
-fn quoted(word: &str) -> String {
-    let plain = |character: char| character.is_ascii_alphanumeric() || "/._-+=:,@".contains(character);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', r"'\''"))
     }
 }
 

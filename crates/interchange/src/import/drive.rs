@@ -13,6 +13,9 @@ const RATE_DEFAULT_LEG: f64 = 0.856;
 const RATE_MAX: f64 = 174.5;
 /// Torque where nothing tells one, as a share of weight times leg length: about that of the built-in robot.
 const EFFORT_DEFAULT: f64 = 0.5;
+/// Inertia of a rotor at its joint, as a share of mass times the leg's length squared: that of the built-in robot. A URDF
+/// tells none, and a drive without rotor shakes.
+const ARMATURE_DEFAULT: f64 = 0.0026;
 /// From this share on, a torque is no limit worth the name.
 const EFFORT_LARGE: f64 = 5.0;
 /// Greatest torque that a mechanism file may have (N·m).
@@ -42,6 +45,13 @@ pub(super) struct Scale {
     pub leg: f64,
     /// Mass (kg).
     pub mass: f64,
+}
+
+impl Scale {
+    /// The inertia of a rotor at its joint that is assumed of every joint without a motor in the map (kg·m²).
+    pub(super) fn armature(self) -> f64 {
+        ARMATURE_DEFAULT * self.mass * self.leg * self.leg
+    }
 }
 
 /// What was assumed or changed, each with the joints that it is true of.

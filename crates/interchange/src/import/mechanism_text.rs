@@ -1,6 +1,6 @@
 //! Writes an imported biped as the text of a mechanism file.
 
-use nalgebra::{Unit, Vector3};
+use nalgebra::{Isometry3, Unit, Vector3};
 
 use crate::import::biped::{Biped, Hinge};
 use crate::import::body::Body;
@@ -18,7 +18,13 @@ pub(super) struct Header<'h> {
     pub name: &'h str,
     /// File name of the URDF.
     pub urdf: &'h str,
+    /// Name of the URDF's link that is the trunk.
+    pub trunk_link: &'h str,
+    /// Maps coordinates of the URDF's root link to those of the standing robot.
+    pub root_to_stand: &'h Isometry3<f64>,
     pub sole: SoleSize,
+    /// Inertia of a rotor at its joint (kg·m²), for joints without a motor.
+    pub armature: f64,
     /// Joints that are held, by index, with their angles (rad).
     pub held: &'h [(usize, f64)],
 }
@@ -30,12 +36,8 @@ pub(super) fn write(biped: &Biped, robot: &Robot, map: &ImportMap, header: &Head
          name = {}\n",
         quoted(header.name)
     );
-    table(&mut text, "[source]", &[("urdf", quoted(header.urdf))]);
+    table(&mut text, "[source]", &source(biped, header));
     table(&mut text, "[sole]", &header.sole.keys().map(|(key, value)| (key, number(value, COARSE))));
-    if map.motors.is_empty() {
-        // The loader looks for the table.
-        table(&mut text, "[motor]", &[]);
-    }
     write_motors(&mut text, map);
 
     let ankle = biped.ankle(0);
@@ -60,7 +62,7 @@ pub(super) fn write(biped: &Biped, robot: &Robot, map: &ImportMap, header: &Head
         let role = Role::Leg(Side::BOTH[side], biped.roles[place]);
         let here = grid.at(hinge.place);
         let mut keys = body(&grid, carried, here);
-        keys.extend(drive(hinge, robot, map));
+        keys.extend(drive(hinge, robot, map, header));
         joint(&mut text, &role.name(), role.number(), &parent, &hinge.axis, at.to(here), keys);
         (parent, at) = (role.name(), here);
     }
@@ -70,7 +72,7 @@ pub(super) fn write(biped: &Biped, robot: &Robot, map: &ImportMap, header: &Head
     let places = biped.waist.map_or([biped.mount; 2], |waist| waist.map(|hinge| hinge.place));
     let [pitch_at, roll_at] = places.map(|place| grid.at(place));
     let axes = biped.waist.map_or([unused(Vector3::y()), unused(Vector3::x())], |waist| waist.map(|hinge| hinge.axis));
-    let drives = biped.waist.map(|waist| waist.map(|hinge| drive(&hinge, robot, map)));
+    let drives = biped.waist.map(|waist| waist.map(|hinge| drive(&hinge, robot, map, header)));
     let [pitch_drive, roll_drive] = drives.unwrap_or_default();
     let keys = [body(&grid, &biped.middle, pitch_at), pitch_drive].concat();
     joint(&mut text, "waist_pitch", 15, &pelvis, &axes[0], pelvis_at.to(pitch_at), keys);
@@ -89,6 +91,23 @@ pub(super) fn write(biped: &Biped, robot: &Robot, map: &ImportMap, header: &Head
         table(&mut text, "[[held]]", &keys);
     }
     text
+}
+
+/// Where the robot came from.
+fn source(biped: &Biped, header: &Header) -> Keys {
+    let turn = header.root_to_stand.rotation;
+    let sole = |side: usize| {
+        let over_ground = biped.ankle(side) - Vector3::z() * header.sole.ankle_height;
+        let in_root = header.root_to_stand.inverse_transform_point(&over_ground.into());
+        vector(&in_root.coords, COARSE)
+    };
+    vec![
+        ("urdf", quoted(header.urdf)),
+        ("trunk_link", quoted(header.trunk_link)),
+        ("root_to_stand_wxyz", array([turn.w, turn.i, turn.j, turn.k].map(|part| number(part, FINE)))),
+        ("right_sole_m", sole(0)),
+        ("left_sole_m", sole(1)),
+    ]
 }
 
 /// Writes the tables of the map's motors.
@@ -146,16 +165,20 @@ fn body(grid: &Grid, body: &Body, joint: OnGrid) -> Keys {
 }
 
 /// Range, rate and torque or motor, and which joint of the URDF it is.
-fn drive(hinge: &Hinge, robot: &Robot, map: &ImportMap) -> Keys {
+fn drive(hinge: &Hinge, robot: &Robot, map: &ImportMap, header: &Header) -> Keys {
     let drive = &hinge.drive;
     let motor = drive.motor.and_then(|index| map.motors.get(index));
-    vec![
+    let mut keys = vec![
         ("range_deg", array(drive.range.map(|angle| number(angle.to_degrees(), COARSE)))),
         ("rate_max_deg_per_s", number(drive.rate_max.to_degrees(), COARSE)),
         motor.map_or_else(|| ("effort_n_m", digits(drive.effort)), |(name, _)| ("motor", quoted(name))),
         ("urdf", quoted(&robot.joints[hinge.urdf].name)),
         ("urdf_sign", if hinge.sign < 0.0 { "-1" } else { "1" }.to_string()),
-    ]
+    ];
+    if motor.is_none() {
+        keys.insert(3, ("armature_kg_m2", digits(header.armature)));
+    }
+    keys
 }
 
 /// Positions rounded in one frame, so that mirrored points stay mirrored and differences add up.

@@ -142,7 +142,21 @@ fn import_robot(robot: &Robot, map: &ImportMap, file: &str, errors: &mut FileErr
         return None;
     }
 
-    let header = Header { name: &name, urdf: base_name(file), sole, held: &held };
+    let trunk = waist.joints.last().map_or(legs.pelvis, |(_, trunk)| *trunk);
+    let of_trunk = robot.links.iter().zip(&graph.body_of).filter(|(_, body)| **body == trunk);
+    let heaviest = of_trunk.max_by(|(one, _), (other, _)| one.body.mass.total_cmp(&other.body.mass));
+    let header = Header {
+        name: &name,
+        urdf: base_name(file),
+        trunk_link: heaviest.map_or("", |(link, _)| link.name.as_str()),
+        root_to_stand: &facing.root_to_stand,
+        sole,
+        armature: scale.armature(),
+        held: &held,
+    };
+    if map.motors.is_empty() {
+        lines.push(format!("no rotor is told: an inertia of {:.3e} kg·m² is assumed at every joint", header.armature));
+    }
     lines.insert(0, format!("{name}: {:.3} kg, legs of {:.3} m", biped.mass(), scale.leg));
     Some(Imported {
         mass: biped.mass(),
