@@ -11,8 +11,7 @@ use crate::syntax::{Token, parse_without_tests, tokens};
 pub const ALLOWED: &[(&str, &str)] = &[
     ("crates/dynamics/src/leg_geometry.rs", "the right leg's chain begins at the foot, the left one's at the pelvis"),
     ("crates/dynamics/src/leg_solver.rs", "the right leg's chain begins at the foot, the left one's at the pelvis"),
-    ("crates/interchange/src/import/straight_legs.rs", "the joints of a leg"),
-    ("crates/interchange/src/mjcf.rs", "the name of a side"),
+    ("crates/interchange/src/side_name.rs", "the name of a side"),
     ("crates/model/src/mechanism.rs", "the link of a foot"),
     ("crates/model/src/mirror.rs", "mirrors everything"),
     ("crates/model/src/side.rs", "the other side"),

@@ -1,6 +1,7 @@
-//! Another robot's URDF becomes a mechanism, gets its own nominal half-step and parameters in its proportions, and walks:
-//! the public robots with nothing but their soles, and our own body grown by 15 % with longer thighs, a heavier trunk and
-//! motors as strong in proportion. Nominal half-steps, then turns, speeds and step lengths, with noise; no falls.
+//! Another robot's URDF becomes a mechanism, gets its own nominal half-step and parameters in its proportions, and
+//! walks: the public robots with nothing but their soles, and our own body grown by 15 % with longer thighs, a heavier
+//! trunk and motors as strong in proportion. Nominal half-steps, then turns, speeds and step lengths, with noise; no
+//! falls.
 
 use std::fs;
 use std::sync::Arc;

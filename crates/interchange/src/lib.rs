@@ -3,4 +3,5 @@
 pub mod import;
 pub mod mjcf;
 pub mod scaled_parameters;
+mod side_name;
 pub mod urdf;

@@ -22,6 +22,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use plant::PlantParameters;
 use quick_xml::escape::escape;
 
+use crate::side_name::side_name;
 use crate::urdf::equivalent_sides;
 
 /// Time constant (s) and damping ratio; impedance from 0.99 to 0.999 over half a millimetre.
@@ -236,13 +237,6 @@ fn sensors(out: &mut Lines) {
         ));
     }
     out.close("sensor");
-}
-
-const fn side_name(side: Side) -> &'static str {
-    match side {
-        Side::Right => "right",
-        Side::Left => "left",
-    }
 }
 
 /// Numbers in full precision, separated by spaces.

@@ -6,8 +6,9 @@ mod support;
 use std::fmt::Write;
 
 use config::Config;
-use interchange::import::{LegRole, NamedText, Role, Side, import};
+use interchange::import::{JointRole, LegRole, NamedText, import};
 use model::Mechanism;
+use model::Side;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use support::robots::{Allowed, is_symmetric, same_robot};
@@ -58,7 +59,7 @@ fn file_range(text: &str, role: &str) -> [f64; 2] {
 
 struct Biped {
     urdf: String,
-    roles: Vec<(String, Role)>,
+    roles: Vec<(String, JointRole)>,
 }
 
 /// A biped whose root's x axis is turned so that the robot's is `yaw` to the left of it.
@@ -120,7 +121,7 @@ fn biped(order: [LegRole; 6], yaw: f64, chance: &mut Chance) -> Biped {
             );
             let com = own_turn.inverse() * (facing * across(Vector3::new(0.01, 0.005, -0.05)));
             write_link(&mut links, &link, *mass, com);
-            roles.push((name, Role::Leg(side, *role)));
+            roles.push((name, JointRole::Leg(side, *role)));
             (parent, at, turn) = (link, own_at, own_turn);
         }
     }

@@ -291,7 +291,8 @@ fn robots_that_are_no_such_bipeds_are_refused_with_what_was_found() {
     for side in ["left", "right"] {
         let toe = format!(
             "<link name=\"{side}_toe\"/><joint name=\"{side}_toe\" type=\"revolute\"><parent \
-             link=\"{side}_foot\"/><child link=\"{side}_toe\"/><axis xyz=\"0 1 0\"/><origin xyz=\"0.1 0 0\"/></joint></robot>"
+             link=\"{side}_foot\"/><child link=\"{side}_toe\"/><axis xyz=\"0 1 0\"/><origin \
+             xyz=\"0.1 0 0\"/></joint></robot>"
         );
         toes = toes.replace("</robot>", &toe);
     }

@@ -7,8 +7,8 @@ use crate::{Balance, LegPattern, Synthesis, SynthesisError, SynthesisParameters,
 
 /// Largest share of a torque or rate limit that a half-step may need: the rest is for requests and for feedback.
 const LOAD_MAX: f64 = 0.8;
-/// Changes that are tried, from the smallest on: shares of the leg by which the hips are higher, factors of step length,
-/// duration, and pelvis sway.
+/// Changes that are tried, from the smallest on: shares of the leg by which the hips are higher, factors of step
+/// length, duration, and pelvis sway.
 const HIPS_HIGHER: [f64; 3] = [0.0, 0.01, 0.02];
 const SHORTER: [f64; 4] = [1.0, 0.85, 0.7, 0.5];
 const LONGER_LASTING: [f64; 3] = [1.0, 1.15, 1.3];

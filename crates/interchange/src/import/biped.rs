@@ -3,8 +3,8 @@
 
 use nalgebra::{Unit, Vector3};
 
-use crate::import::body::Body;
-use crate::import::drive::Drive;
+use crate::import::body::LumpedBody;
+use crate::import::drive::JointDrive;
 use crate::import::role::LegRole;
 
 /// A joint as a point and an axis.
@@ -19,7 +19,7 @@ pub(super) struct Hinge {
     /// Angle in the URDF = sign · angle about `axis`.
     pub sign: f64,
     /// Range, rate and torque; the range about `axis`.
-    pub drive: Drive,
+    pub drive: JointDrive,
 }
 
 /// A leg from the pelvis down.
@@ -27,7 +27,7 @@ pub(super) struct Hinge {
 pub(super) struct Leg {
     pub hinges: [Hinge; 6],
     /// The body below each joint; the last is the foot.
-    pub bodies: [Body; 6],
+    pub bodies: [LumpedBody; 6],
 }
 
 /// The biped.
@@ -38,14 +38,14 @@ pub(super) struct Biped {
     /// Right and left leg.
     pub legs: [Leg; 2],
     /// The body on which the legs hang; massless where that is the trunk.
-    pub pelvis: Body,
+    pub pelvis: LumpedBody,
     /// The joints that pitch and roll the trunk.
     pub waist: Option<[Hinge; 2]>,
     /// Where the trunk is mounted if there is no such waist (m).
     pub mount: Vector3<f64>,
     /// The body between the two joints of the waist, and the trunk with arms and head.
-    pub middle: Body,
-    pub trunk: Body,
+    pub middle: LumpedBody,
+    pub trunk: LumpedBody,
 }
 
 impl Biped {

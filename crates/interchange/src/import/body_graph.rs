@@ -1,9 +1,9 @@
 //! The robot as rigid bodies, each one or several links of the URDF, and the joints that turn between them. The tree is
 //! read without direction: a URDF may be rooted at any link.
 
-use crate::import::body::Body;
+use crate::import::body::LumpedBody;
 use crate::import::posture::Poses;
-use crate::import::urdf_robot::Robot;
+use crate::import::urdf_robot::UrdfRobot;
 
 /// Bodies and the joints between them.
 #[derive(Clone, Debug)]
@@ -18,7 +18,7 @@ pub(super) struct BodyGraph {
 
 impl BodyGraph {
     /// The bodies of a robot of which the joints that `turns` names can turn.
-    pub(super) fn new(robot: &Robot, turns: impl Fn(usize) -> bool) -> Self {
+    pub(super) fn new(robot: &UrdfRobot, turns: impl Fn(usize) -> bool) -> Self {
         let mut body_of: Vec<usize> = (0..robot.links.len()).collect();
         let joints: Vec<usize> = (0..robot.joints.len()).filter(|joint| turns(*joint)).collect();
         for (index, joint) in robot.joints.iter().enumerate() {
@@ -80,14 +80,14 @@ impl BodyGraph {
     }
 
     /// The links of some bodies as one rigid body, in the frame of the poses.
-    pub(super) fn lump(&self, robot: &Robot, poses: &Poses, bodies: &[usize]) -> Body {
+    pub(super) fn lump(&self, robot: &UrdfRobot, poses: &Poses, bodies: &[usize]) -> LumpedBody {
         let links = robot.links.iter().zip(&poses.links).zip(&self.body_of);
         let own = links.filter(|(_, body)| bodies.contains(body));
-        own.fold(Body::default(), |sum, ((link, pose), _)| sum.with(&link.body.moved(pose)))
+        own.fold(LumpedBody::default(), |sum, ((link, pose), _)| sum.with(&link.body.moved(pose)))
     }
 
     /// Mass of some bodies (kg).
-    pub(super) fn mass(&self, robot: &Robot, bodies: &[usize]) -> f64 {
+    pub(super) fn mass(&self, robot: &UrdfRobot, bodies: &[usize]) -> f64 {
         let links = robot.links.iter().zip(&self.body_of);
         links.filter(|(_, body)| bodies.contains(body)).map(|(link, _)| link.body.mass).sum()
     }

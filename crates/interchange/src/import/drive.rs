@@ -1,7 +1,7 @@
 //! Range, rate and torque of a joint.
 
 use crate::import::import_map::{MapJoint, MapMotor};
-use crate::import::urdf_robot::{JointKind, UrdfJoint};
+use crate::import::urdf_robot::{JointKind, UrdfTreeJoint};
 
 /// Share of a motor's speed without load at which its joint is used at most.
 const NO_LOAD_SHARE: f64 = 0.85;
@@ -13,8 +13,8 @@ const RATE_DEFAULT_LEG: f64 = 0.856;
 const RATE_MAX: f64 = 174.5;
 /// Torque where nothing tells one, as a share of weight times leg length: about that of the built-in robot.
 const EFFORT_DEFAULT: f64 = 0.5;
-/// Inertia of a rotor at its joint, as a share of mass times the leg's length squared: that of the built-in robot. A URDF
-/// tells none, and a drive without rotor shakes.
+/// Inertia of a rotor at its joint, as a share of mass times the leg's length squared: that of the built-in robot. A
+/// URDF tells none, and a drive without rotor shakes.
 const ARMATURE_DEFAULT: f64 = 0.0026;
 /// From this share on, a torque is no limit worth the name.
 const EFFORT_LARGE: f64 = 5.0;
@@ -27,7 +27,7 @@ const GRAVITY: f64 = 9.80665;
 
 /// What a joint can do, in the URDF's sign.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Drive {
+pub(super) struct JointDrive {
     /// Smallest and largest angle (rad).
     pub range: [f64; 2],
     /// Largest rate (rad/s).
@@ -74,12 +74,12 @@ impl DriveNotes {
 
 /// The drive of a joint, or what is wrong with its limits.
 pub(super) fn drive(
-    joint: &UrdfJoint,
+    joint: &UrdfTreeJoint,
     map: MapJoint,
     motors: &[(String, MapMotor)],
     scale: Scale,
     notes: &mut DriveNotes,
-) -> Result<Drive, String> {
+) -> Result<JointDrive, String> {
     let limit = joint.limit;
     let range = match (map.range, joint.kind) {
         (Some(range), _) => range,
@@ -97,7 +97,7 @@ pub(super) fn drive(
         notes.add(format!("the range {low:.1}° to {high:.1}° leaves out the straight posture"), &joint.name);
     }
     let motor = map.motor.and_then(|index| motors.get(index));
-    Ok(Drive {
+    Ok(JointDrive {
         range,
         rate_max: rate(joint, map.rate_max, motor, scale, notes),
         effort: effort(joint, map, scale, notes),
@@ -124,7 +124,7 @@ fn checked_range(lower: f64, upper: f64) -> Result<[f64; 2], String> {
 }
 
 fn rate(
-    joint: &UrdfJoint,
+    joint: &UrdfTreeJoint,
     told: Option<f64>,
     motor: Option<&(String, MapMotor)>,
     scale: Scale,
@@ -171,7 +171,7 @@ fn rate(
     }
 }
 
-fn effort(joint: &UrdfJoint, map: MapJoint, scale: Scale, notes: &mut DriveNotes) -> f64 {
+fn effort(joint: &UrdfTreeJoint, map: MapJoint, scale: Scale, notes: &mut DriveNotes) -> f64 {
     let unit = scale.mass * GRAVITY * scale.leg;
     if let Some(told) = map.effort {
         return told;

@@ -3,15 +3,16 @@
 //! The legs tell the lateral direction. Which end of it is left follows from where the knees bend, the feet's shapes
 //! and masses, and, if these say nothing, from names.
 
+use model::Side;
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use crate::import::file_errors::FileErrors;
 use crate::import::import_map::ImportMap;
 use crate::import::leg_pair::LegPair;
 use crate::import::posture::Poses;
-use crate::import::role::{Role, Side};
+use crate::import::role::JointRole;
 use crate::import::sole::contact_points;
-use crate::import::urdf_robot::{JointKind, Robot};
+use crate::import::urdf_robot::{JointKind, UrdfRobot};
 
 /// How far from the root frame's axis the lateral direction counts as along it (rad): sides differ a little.
 const SNAP: f64 = 0.0175;
@@ -37,7 +38,7 @@ struct Vote(f64, &'static str);
 
 /// Finds the direction, and prints what told it. `poses` is the zero posture in the root link's frame.
 pub(super) fn find(
-    robot: &Robot,
+    robot: &UrdfRobot,
     map: &ImportMap,
     legs: &LegPair,
     body_of: &[usize],
@@ -84,7 +85,7 @@ fn snapped(direction: Vector3<f64>) -> Vector3<f64> {
 }
 
 fn votes(
-    robot: &Robot,
+    robot: &UrdfRobot,
     map: &ImportMap,
     legs: &LegPair,
     body_of: &[usize],
@@ -99,7 +100,7 @@ fn votes(
         .joints
         .iter()
         .filter_map(|(role, joint)| match role {
-            Role::Leg(side, _) => Some((*side, joint.urdf?)),
+            JointRole::Leg(side, _) => Some((*side, joint.urdf?)),
             _ => None,
         })
         .map(|(side, urdf)| if legs.joints[side_of(side)].contains(&urdf) { 1.0 } else { -1.0 })
@@ -134,7 +135,7 @@ fn votes(
         let beyond = |sign: f64| frames.iter().any(|place| sign * (place.dot(&ahead) - ankle) > MARK);
         marks += if beyond(1.0) && beyond(-1.0) { reach(&frames) } else { 0.0 };
         let links = robot.links.iter().zip(&poses.links).zip(body_of).filter(|(_, body)| **body == bodies[5]);
-        let foot = links.fold(Default::default(), |sum: crate::import::body::Body, ((link, pose), _)| {
+        let foot = links.fold(Default::default(), |sum: crate::import::body::LumpedBody, ((link, pose), _)| {
             sum.with(&link.body.moved(pose))
         });
         let shin = (poses.joints[joints[3]].0 - poses.joints[joints[4]].0).norm();

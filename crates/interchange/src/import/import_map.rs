@@ -3,9 +3,9 @@
 use config::{ConfigErrors, Document, Table};
 
 use crate::import::NamedText;
-use crate::import::role::Role;
+use crate::import::role::JointRole;
 use crate::import::sole::SoleSize;
-use crate::import::urdf_robot::{JointKind, Robot};
+use crate::import::urdf_robot::{JointKind, UrdfRobot};
 use crate::import::urdf_tree::listed;
 
 /// Content of a map file.
@@ -18,7 +18,7 @@ pub(super) struct ImportMap {
     /// The motors with their names.
     pub motors: Vec<(String, MapMotor)>,
     /// What is told of joints by their role.
-    pub joints: Vec<(Role, MapJoint)>,
+    pub joints: Vec<(JointRole, MapJoint)>,
     /// Joints of the URDF that are held, by index, each with its angle (rad).
     pub held: Vec<(usize, f64)>,
 }
@@ -61,7 +61,7 @@ impl MapMotor {
 
 impl ImportMap {
     /// What the map tells of a role.
-    pub(super) fn joint(&self, role: Role) -> MapJoint {
+    pub(super) fn joint(&self, role: JointRole) -> MapJoint {
         self.joints.iter().find(|(other, _)| *other == role).map_or(MapJoint::default(), |(_, joint)| *joint)
     }
 
@@ -70,7 +70,7 @@ impl ImportMap {
     /// # Errors
     /// Every mistake in the map: also joints that the URDF does not have, that cannot turn, or that are named twice,
     /// and the keys of older maps.
-    pub(super) fn read(map: NamedText, robot: &Robot) -> Result<Self, ConfigErrors> {
+    pub(super) fn read(map: NamedText, robot: &UrdfRobot) -> Result<Self, ConfigErrors> {
         let document = Document::parse(map.text, map.file)?;
         let root = document.root();
         refuse_old_keys(&root);
@@ -83,7 +83,7 @@ impl ImportMap {
         let mut joints = Vec::new();
         if root.has("joint") {
             let table = root.table("joint");
-            for role in Role::all().filter(|role| table.has(&role.name())) {
+            for role in JointRole::all().filter(|role| table.has(&role.name())) {
                 joints.push((role, read_joint(&table.table(&role.name()), &motors, &mut taken)));
             }
         }
@@ -139,7 +139,7 @@ fn read_held(table: &Table, taken: &mut Taken) -> Option<(usize, f64)> {
 
 /// The joints of the URDF that the map has mentioned, and where.
 struct Taken<'r> {
-    robot: &'r Robot,
+    robot: &'r UrdfRobot,
     by: Vec<Option<String>>,
 }
 

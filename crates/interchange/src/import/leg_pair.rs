@@ -4,8 +4,8 @@ use crate::import::body_graph::BodyGraph;
 use crate::import::file_errors::FileErrors;
 use crate::import::import_map::ImportMap;
 use crate::import::posture::Poses;
-use crate::import::role::Role;
-use crate::import::urdf_robot::Robot;
+use crate::import::role::JointRole;
+use crate::import::urdf_robot::UrdfRobot;
 use crate::import::urdf_tree::listed;
 
 /// How far two feet may differ in height, as a share of the robot's (the joints') height.
@@ -25,7 +25,7 @@ pub(super) struct LegPair {
 impl LegPair {
     /// The same legs in the graph in which the upper body's held joints turn, too: what is held there is no less a
     /// waist's joint.
-    pub(super) fn with_upper_body(&self, robot: &Robot, graph: &BodyGraph) -> (BodyGraph, LegPair) {
+    pub(super) fn with_upper_body(&self, robot: &UrdfRobot, graph: &BodyGraph) -> (BodyGraph, LegPair) {
         let all = BodyGraph::new(robot, |joint| robot.joints[joint].turns());
         let ends = |graph: &BodyGraph| [0, 1].map(|leg| graph.body_of[self.bodies[leg][5]]);
         let [start, end] = ends(&all);
@@ -57,16 +57,16 @@ impl LegPair {
 
 /// Finds the legs; notes what was found instead. `poses` is the zero posture in the root link's frame, z up.
 pub(super) fn find(
-    robot: &Robot,
+    robot: &UrdfRobot,
     map: &ImportMap,
     graph: &BodyGraph,
     poses: &Poses,
     errors: &mut FileErrors,
 ) -> Option<LegPair> {
-    let mapped: Vec<(Role, usize)> = map
+    let mapped: Vec<(JointRole, usize)> = map
         .joints
         .iter()
-        .filter(|(role, _)| matches!(role, Role::Leg(..)))
+        .filter(|(role, _)| matches!(role, JointRole::Leg(..)))
         .filter_map(|(role, joint)| Some((*role, joint.urdf?)))
         .collect();
     let height = |joint: usize| poses.joints[joint].0.z;
@@ -75,7 +75,7 @@ pub(super) fn find(
     ends.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
     let highest = graph.joints.iter().map(|joint| height(*joint)).fold(f64::NEG_INFINITY, f64::max);
 
-    let mut best: Option<Way> = None;
+    let mut best: Option<PathBetweenEnds> = None;
     for (rank, (end, z)) in ends.iter().enumerate() {
         let level = LEVEL * (highest - z) + 1e-3;
         // Feet are the lowest; where the map names the legs, others are tried as well.
@@ -93,14 +93,14 @@ pub(super) fn find(
                 .as_ref()
                 .is_none_or(|best| path.len() > best.path.len() || (path.len() == best.path.len() && off < best.off));
             if better {
-                best = Some(Way { path, start: *other, off });
+                best = Some(PathBetweenEnds { path, start: *other, off });
             }
         }
         if best.is_some() {
             break;
         }
     }
-    let Some(Way { path, start, .. }) = best else {
+    let Some(PathBetweenEnds { path, start, .. }) = best else {
         errors.note(no_legs(robot, &ends, &mapped));
         return None;
     };
@@ -111,8 +111,8 @@ pub(super) fn find(
     Some(LegPair::of_path(start, &path))
 }
 
-/// A way between two ends of the robot.
-struct Way {
+/// A path between two ends of the robot.
+struct PathBetweenEnds {
     /// Its joints, each with the body behind it.
     path: Vec<(usize, usize)>,
     /// The body where it begins.
@@ -127,7 +127,7 @@ fn asymmetry(path: &[(usize, usize)], poses: &Poses) -> f64 {
     (0..path.len() / 2).map(|index| (place(index).z - place(path.len() - 1 - index).z).abs()).sum()
 }
 
-fn no_legs(robot: &Robot, ends: &[(usize, f64)], mapped: &[(Role, usize)]) -> String {
+fn no_legs(robot: &UrdfRobot, ends: &[(usize, f64)], mapped: &[(JointRole, usize)]) -> String {
     if ends.is_empty() {
         return "must have joints that turn (revolute or continuous): none was found".to_string();
     }
@@ -142,7 +142,7 @@ fn no_legs(robot: &Robot, ends: &[(usize, f64)], mapped: &[(Role, usize)]) -> St
     )
 }
 
-fn wrong_number(robot: &Robot, poses: &Poses, path: &[(usize, usize)]) -> String {
+fn wrong_number(robot: &UrdfRobot, poses: &Poses, path: &[(usize, usize)]) -> String {
     let told = |(joint, _): &(usize, usize)| {
         let axis = poses.joints[*joint].1;
         format!("{} (about {})", robot.joints[*joint].name, ["x", "y", "z"][axis.iamax()])

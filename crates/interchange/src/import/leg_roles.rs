@@ -1,13 +1,15 @@
 //! What each joint of a leg does, by its axis and its place between pelvis and foot.
 
+use model::Side;
 use nalgebra::{Matrix3, Unit, Vector3};
 
 use crate::import::file_errors::FileErrors;
 use crate::import::import_map::ImportMap;
 use crate::import::leg_pair::LegPair;
 use crate::import::posture::Poses;
-use crate::import::role::{LegRole, Role, Side};
-use crate::import::urdf_robot::Robot;
+use crate::import::role::{JointRole, LegRole};
+use crate::import::urdf_robot::UrdfRobot;
+use crate::side_name::side_name;
 
 /// Least cosine between an axis and the direction of its role.
 const ALONG: f64 = 0.5;
@@ -18,7 +20,7 @@ const SPAN: f64 = 0.25;
 ///
 /// `sides` are the legs' indices in `legs`, right and left; `poses` those of the standing robot.
 pub(super) fn find(
-    robot: &Robot,
+    robot: &UrdfRobot,
     map: &ImportMap,
     legs: &LegPair,
     sides: [usize; 2],
@@ -39,7 +41,7 @@ pub(super) fn find(
                     errors.note_at(robot.joints[joints[0]].line, format!(
                     "{} leg, from the pelvis down {}: {what}; this is so at the URDF's zero, where the robot must \
                      stand straight, z up",
-                    side.name(),
+                    side_name(side),
                     names.join(", ")
                 ));
                     continue;
@@ -48,10 +50,11 @@ pub(super) fn find(
         for (role, joint) in leg_joints(map, side) {
             let is = joints.iter().position(|other| *other == joint).map(|place| roles[place]);
             if is != Some(role) {
-                let is = is.map_or("not in that leg".to_string(), |is| format!("the {}_{}", side.name(), is.name()));
+                let is =
+                    is.map_or("not in that leg".to_string(), |is| format!("the {}_{}", side_name(side), is.name()));
                 let name = &robot.joints[joint].name;
                 let must = "by its axis and its place between pelvis and foot; map it so, or leave it out of the map";
-                let role = Role::Leg(side, role).name();
+                let role = JointRole::Leg(side, role).name();
                 let line = robot.joints[joint].line;
                 errors.note_at(line, format!("joint {name} as {role}: it is {is} {must}"));
             }
@@ -75,7 +78,7 @@ pub(super) fn find(
 /// The roles that the map gives to joints of the URDF in one leg.
 fn leg_joints(map: &ImportMap, side: Side) -> impl Iterator<Item = (LegRole, usize)> {
     map.joints.iter().filter_map(move |(role, joint)| match role {
-        Role::Leg(of, role) if *of == side => Some((*role, joint.urdf?)),
+        JointRole::Leg(of, role) if *of == side => Some((*role, joint.urdf?)),
         _ => None,
     })
 }

@@ -2,12 +2,12 @@
 
 use crate::import::import_map::ImportMap;
 use crate::import::mechanism_text::{Header, write_motors};
-use crate::import::role::Role;
+use crate::import::role::JointRole;
 use crate::import::toml_text::{COARSE, number, quoted, table};
-use crate::import::urdf_robot::Robot;
+use crate::import::urdf_robot::UrdfRobot;
 
 /// Writes the map's text.
-pub(super) fn write(robot: &Robot, map: &ImportMap, roles: &[(Role, usize)], header: &Header) -> String {
+pub(super) fn write(robot: &UrdfRobot, map: &ImportMap, roles: &[(JointRole, usize)], header: &Header) -> String {
     let mut text = format!(
         "# What was found in {}. Delete what may be found again.\n\nname = {}\n",
         quoted(header.urdf),

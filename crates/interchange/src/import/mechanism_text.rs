@@ -1,14 +1,15 @@
 //! Writes an imported biped as the text of a mechanism file.
 
+use model::Side;
 use nalgebra::{Isometry3, Unit, Vector3};
 
 use crate::import::biped::{Biped, Hinge};
-use crate::import::body::Body;
+use crate::import::body::LumpedBody;
 use crate::import::import_map::{ImportMap, MOTOR_KEYS};
-use crate::import::role::{Role, Side};
+use crate::import::role::JointRole;
 use crate::import::sole::SoleSize;
 use crate::import::toml_text::{COARSE, FINE, array, digits, number, quoted, table, vector};
-use crate::import::urdf_robot::Robot;
+use crate::import::urdf_robot::UrdfRobot;
 
 /// Bodies that weigh less (kg) are left out.
 const MASS_MIN: f64 = 1e-6;
@@ -30,7 +31,7 @@ pub(super) struct Header<'h> {
 }
 
 /// Writes the file's text.
-pub(super) fn write(biped: &Biped, robot: &Robot, map: &ImportMap, header: &Header) -> String {
+pub(super) fn write(biped: &Biped, robot: &UrdfRobot, map: &ImportMap, header: &Header) -> String {
     let mut text = format!(
         "# Made by `halfstep import`. Frames, units and signs: as in Halfstep's own config/mechanism.toml.\n\n\
          name = {}\n",
@@ -59,7 +60,7 @@ pub(super) fn write(biped: &Biped, robot: &Robot, map: &ImportMap, header: &Head
             (0, _) => &biped.legs[0].bodies[place - 1],
             _ => &biped.legs[1].bodies[place],
         };
-        let role = Role::Leg(Side::BOTH[side], biped.roles[place]);
+        let role = JointRole::Leg(Side::BOTH[side], biped.roles[place]);
         let here = grid.at(hinge.place);
         let mut keys = body(&grid, carried, here);
         keys.extend(drive(hinge, robot, map, header));
@@ -67,7 +68,7 @@ pub(super) fn write(biped: &Biped, robot: &Robot, map: &ImportMap, header: &Head
         (parent, at) = (role.name(), here);
     }
 
-    let pelvis = Role::Leg(Side::Right, biped.roles[0]).name();
+    let pelvis = JointRole::Leg(Side::Right, biped.roles[0]).name();
     let pelvis_at = grid.at(biped.legs[0].hinges[0].place);
     let places = biped.waist.map_or([biped.mount; 2], |waist| waist.map(|hinge| hinge.place));
     let [pitch_at, roll_at] = places.map(|place| grid.at(place));
@@ -78,10 +79,10 @@ pub(super) fn write(biped: &Biped, robot: &Robot, map: &ImportMap, header: &Head
     joint(&mut text, "waist_pitch", 15, &pelvis, &axes[0], pelvis_at.to(pitch_at), keys);
     let keys = [body(&grid, &biped.trunk, roll_at), roll_drive].concat();
     joint(&mut text, "waist_roll", 16, "waist_pitch", &axes[1], pitch_at.to(roll_at), keys);
-    for role in Role::all().filter(|role| role.is_in_arm()) {
+    for role in JointRole::all().filter(|role| role.is_in_arm()) {
         let parent = match role {
-            Role::Elbow(side) => Role::Shoulder(side).name(),
-            _ => Role::WaistRoll.name(),
+            JointRole::Elbow(side) => JointRole::Shoulder(side).name(),
+            _ => JointRole::WaistRoll.name(),
         };
         let axis = unused(Vector3::y());
         joint(&mut text, &role.name(), role.number(), &parent, &axis, roll_at.to(roll_at), Vec::new());
@@ -141,7 +142,7 @@ fn joint(
 }
 
 /// Mass, centre of mass and inertia in the frame of a joint; nothing for a massless body.
-fn body(grid: &Grid, body: &Body, joint: OnGrid) -> Keys {
+fn body(grid: &Grid, body: &LumpedBody, joint: OnGrid) -> Keys {
     if body.mass < MASS_MIN {
         return Vec::new();
     }
@@ -165,7 +166,7 @@ fn body(grid: &Grid, body: &Body, joint: OnGrid) -> Keys {
 }
 
 /// Range, rate and torque or motor, and which joint of the URDF it is.
-fn drive(hinge: &Hinge, robot: &Robot, map: &ImportMap, header: &Header) -> Keys {
+fn drive(hinge: &Hinge, robot: &UrdfRobot, map: &ImportMap, header: &Header) -> Keys {
     let drive = &hinge.drive;
     let motor = drive.motor.and_then(|index| map.motors.get(index));
     let mut keys = vec![

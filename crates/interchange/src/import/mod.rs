@@ -39,7 +39,7 @@ mod waist;
 mod xml_tree;
 
 pub use file_errors::{ImportError, NamedText};
-pub use role::{LegRole, Role, Side};
+pub use role::{JointRole, LegRole};
 
 use body_graph::BodyGraph;
 use drive::Scale;
@@ -49,7 +49,7 @@ use mechanism_text::Header;
 use parts::Parts;
 use posture::{Poses, held_angles};
 use sole::contact_points;
-use urdf_robot::Robot;
+use urdf_robot::UrdfRobot;
 
 /// A biped imported from a URDF.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,7 +67,7 @@ pub struct Imported {
     /// The text of a complete map, with everything that was found.
     pub map: String,
     /// The joints that have a role, with their names in the URDF, in the order of the mechanism's numbers.
-    pub roles: Vec<(Role, String)>,
+    pub roles: Vec<(JointRole, String)>,
     /// What was taken, assumed, held and changed, one text each, for users.
     pub lines: Vec<String>,
 }
@@ -94,7 +94,7 @@ pub fn print_map(urdf: NamedText, map: Option<NamedText>) -> Result<String, Impo
     import(urdf, map).map(|imported| imported.map)
 }
 
-fn import_robot(robot: &Robot, map: &ImportMap, file: &str, errors: &mut FileErrors) -> Option<Imported> {
+fn import_robot(robot: &UrdfRobot, map: &ImportMap, file: &str, errors: &mut FileErrors) -> Option<Imported> {
     let mut lines = Vec::new();
     let is_held = |joint: usize| map.held.iter().any(|(held, _)| *held == joint);
     let graph = BodyGraph::new(robot, |joint| robot.joints[joint].turns() && !is_held(joint));
@@ -171,7 +171,7 @@ fn import_robot(robot: &Robot, map: &ImportMap, file: &str, errors: &mut FileErr
 }
 
 /// The map's name of the robot, else the URDF's, else the file's.
-fn name(robot: &Robot, map: &ImportMap, file: &str, lines: &mut Vec<String>) -> String {
+fn name(robot: &UrdfRobot, map: &ImportMap, file: &str, lines: &mut Vec<String>) -> String {
     if let Some(name) = &map.name {
         return name.clone();
     }

@@ -1,18 +1,20 @@
 //! Puts a biped together from its URDF and the roles that were found in it.
 
+use model::Side;
 use nalgebra::{Unit, Vector3};
 
 use crate::import::biped::{Biped, Hinge, Leg};
-use crate::import::body::Body;
+use crate::import::body::LumpedBody;
 use crate::import::body_graph::BodyGraph;
-use crate::import::drive::{self, Drive, DriveNotes, Scale};
+use crate::import::drive::{self, DriveNotes, JointDrive, Scale};
 use crate::import::file_errors::FileErrors;
 use crate::import::import_map::ImportMap;
 use crate::import::leg_pair::LegPair;
 use crate::import::posture::Poses;
-use crate::import::role::{LegRole, Role, Side};
-use crate::import::urdf_robot::Robot;
+use crate::import::role::{JointRole, LegRole};
+use crate::import::urdf_robot::UrdfRobot;
 use crate::import::waist::Waist;
+use crate::side_name::side_name;
 
 /// Least distance from hip to ankle as a share of thigh and shank: a straight leg's is 1.
 const STRETCHED: f64 = 0.93;
@@ -23,7 +25,7 @@ const SEGMENT: f64 = 0.1;
 
 /// What the biped is made of: the URDF, and the roles that were found in it.
 pub(super) struct Parts<'p> {
-    pub robot: &'p Robot,
+    pub robot: &'p UrdfRobot,
     pub map: &'p ImportMap,
     pub legs: &'p LegPair,
     /// Index of right and left leg in `legs`.
@@ -36,14 +38,14 @@ pub(super) struct Parts<'p> {
 
 impl Parts<'_> {
     /// The role of each joint that has one.
-    pub(super) fn roles(&self) -> Vec<(Role, usize)> {
+    pub(super) fn roles(&self) -> Vec<(JointRole, usize)> {
         let mut roles = Vec::new();
         for (side, leg) in Side::BOTH.into_iter().zip(self.sides) {
             let own = self.roles.iter().zip(self.legs.joints[leg]);
-            roles.extend(own.map(|(role, joint)| (Role::Leg(side, *role), joint)));
+            roles.extend(own.map(|(role, joint)| (JointRole::Leg(side, *role), joint)));
         }
         if let Some([pitch, roll]) = self.waist.roles {
-            roles.extend([(Role::WaistPitch, pitch), (Role::WaistRoll, roll)]);
+            roles.extend([(JointRole::WaistPitch, pitch), (JointRole::WaistRoll, roll)]);
         }
         roles.sort_by_key(|(role, _)| role.number());
         roles
@@ -77,7 +79,7 @@ impl Parts<'_> {
                     line,
                     format!(
                         "{} leg: its knee must have a thigh above and a shank below; they are {:.4} and {:.4} m long",
-                        side.name(),
+                        side_name(side),
                         thigh.norm(),
                         shank.norm()
                     ),
@@ -88,7 +90,7 @@ impl Parts<'_> {
                     line,
                     format!(
                         "{} leg: it is bent by {bent:.0}° at the URDF's zero; there the robot must stand straight",
-                        side.name()
+                        side_name(side)
                     ),
                 );
             } else if -whole.z < UPRIGHT * whole.norm() {
@@ -97,7 +99,7 @@ impl Parts<'_> {
                     format!(
                         "{} leg: from hip to ankle it points along [{:.2}, {:.2}, {:.2}] at the URDF's zero; there the \
                      robot must stand upright, z up",
-                        side.name(),
+                        side_name(side),
                         whole.x / whole.norm(),
                         whole.y / whole.norm(),
                         whole.z / whole.norm()
@@ -116,7 +118,7 @@ impl Parts<'_> {
         let graph = BodyGraph::new(self.robot, |joint| turning.contains(&joint));
         let lump = |body: usize| graph.lump(self.robot, self.poses, &[graph.body_of[body]]);
         let mut notes = DriveNotes::default();
-        let mut hinge = |role: Role, urdf: usize, axis: usize, carried: usize| {
+        let mut hinge = |role: JointRole, urdf: usize, axis: usize, carried: usize| {
             let joint = &self.robot.joints[urdf];
             if let Some(mimic) = &joint.mimic {
                 errors.note_at(
@@ -149,7 +151,7 @@ impl Parts<'_> {
                 place,
                 axis: Unit::new_unchecked(told.into_inner() * turned),
                 sign,
-                drive: Drive { range, ..drive },
+                drive: JointDrive { range, ..drive },
             })
         };
 
@@ -162,7 +164,7 @@ impl Parts<'_> {
                     let above = if place == 0 { self.legs.pelvis } else { below[place - 1] };
                     let carried = if side == 0 { above } else { below[place] };
                     let role = self.roles[place];
-                    hinge(Role::Leg(Side::BOTH[side], role), self.legs.joints[leg][place], role.axis(), carried)
+                    hinge(JointRole::Leg(Side::BOTH[side], role), self.legs.joints[leg][place], role.axis(), carried)
                 })
                 .collect();
             let hinges: Option<Vec<Hinge>> = hinges.into_iter().collect();
@@ -173,8 +175,8 @@ impl Parts<'_> {
         let waist = match self.waist.roles {
             None => Some(None),
             Some([pitch, roll]) => {
-                let pitch = hinge(Role::WaistPitch, pitch, 1, behind(pitch)?);
-                let roll = hinge(Role::WaistRoll, roll, 0, behind(roll)?);
+                let pitch = hinge(JointRole::WaistPitch, pitch, 1, behind(pitch)?);
+                let roll = hinge(JointRole::WaistRoll, roll, 0, behind(roll)?);
                 pitch.zip(roll).map(|(pitch, roll)| Some([pitch, roll]))
             }
         };
@@ -182,7 +184,7 @@ impl Parts<'_> {
         let [right, left] = legs;
         let legs = [right?, left?];
 
-        let mut middle = Body::default();
+        let mut middle = LumpedBody::default();
         if let Some(roles) = self.waist.roles {
             let first = self.waist.joints.iter().find(|(joint, _)| roles.contains(joint))?;
             middle = lump(first.1);
@@ -196,7 +198,7 @@ impl Parts<'_> {
         }
         let (pelvis, trunk) = match self.waist.joints.last() {
             Some((_, trunk)) => (lump(self.legs.pelvis), lump(*trunk)),
-            None => (Body::default(), lump(self.legs.pelvis)),
+            None => (LumpedBody::default(), lump(self.legs.pelvis)),
         };
         let mount = match self.waist.joints.first() {
             Some((joint, _)) => self.poses.joints[*joint].0,

@@ -1,9 +1,9 @@
 //! Sizes that no biped has: mistakes of unit.
 
-use crate::import::body::Body;
+use crate::import::body::LumpedBody;
 use crate::import::drive::Scale;
 use crate::import::file_errors::FileErrors;
-use crate::import::urdf_robot::Robot;
+use crate::import::urdf_robot::UrdfRobot;
 
 /// Length of a leg (m).
 const LEG: [f64; 2] = [0.1, 2.0];
@@ -16,7 +16,7 @@ const GYRATION_MAX: f64 = 10.0;
 const COM_MAX: f64 = 5.0;
 
 /// Notes lengths, masses and moments of inertia that no biped has, with the unit that is suspected.
-pub(super) fn check(scale: Scale, robot: &Robot, bodies: &[(&str, Body)], errors: &mut FileErrors) {
+pub(super) fn check(scale: Scale, robot: &UrdfRobot, bodies: &[(&str, LumpedBody)], errors: &mut FileErrors) {
     let Scale { leg, mass } = scale;
     let [short, long] = LEG;
     if !(short..=long).contains(&leg) {

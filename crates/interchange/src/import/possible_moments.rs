@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
 use crate::import::biped::Biped;
-use crate::import::body::Body;
+use crate::import::body::LumpedBody;
 
 /// Least radius of gyration of a body, as a share of the leg's length: some URDFs give mass without inertia.
 const GYRATION_MIN: f64 = 0.005;
@@ -34,7 +34,7 @@ pub(super) fn repair(biped: &mut Biped, leg: f64, lines: &mut Vec<String>) {
 }
 
 /// Raises the moments of one body; in words what they were and became.
-fn repair_body(body: &mut Body, leg: f64) -> Option<String> {
+fn repair_body(body: &mut LumpedBody, leg: f64) -> Option<String> {
     if body.mass <= 0.0 {
         return None;
     }

@@ -2,11 +2,11 @@
 
 use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 
-use crate::import::urdf_robot::{JointKind, Robot, UrdfJoint};
+use crate::import::urdf_robot::{JointKind, UrdfRobot, UrdfTreeJoint};
 
 /// Angle at which each joint is held if it has no role (rad, or m for what slides): what the map says, else the angle
 /// that the joint it mimics gives it, else zero or the end of its range that is nearest to zero.
-pub(super) fn held_angles(robot: &Robot, told: &[(usize, f64)]) -> Vec<f64> {
+pub(super) fn held_angles(robot: &UrdfRobot, told: &[(usize, f64)]) -> Vec<f64> {
     let mut angles: Vec<f64> = robot.joints.iter().map(nearest_to_zero).collect();
     for &(joint, angle) in told {
         angles[joint] = angle;
@@ -24,7 +24,7 @@ pub(super) fn held_angles(robot: &Robot, told: &[(usize, f64)]) -> Vec<f64> {
     angles
 }
 
-fn nearest_to_zero(joint: &UrdfJoint) -> f64 {
+fn nearest_to_zero(joint: &UrdfTreeJoint) -> f64 {
     let has_range = matches!(joint.kind, JointKind::Revolute | JointKind::Prismatic);
     let limit = joint.limit;
     if has_range && limit.lower <= limit.upper { 0.0_f64.clamp(limit.lower, limit.upper) } else { 0.0 }
@@ -41,7 +41,7 @@ pub(super) struct Poses {
 
 impl Poses {
     /// The poses in the root link's frame with each joint at an angle (rad or m).
-    pub(super) fn at(robot: &Robot, angles: &[f64]) -> Self {
+    pub(super) fn at(robot: &UrdfRobot, angles: &[f64]) -> Self {
         let mut links = vec![None; robot.links.len()];
         links[robot.root] = Some(Isometry3::identity());
         let mut joints = vec![(Vector3::zeros(), Vector3::x_axis()); robot.joints.len()];
@@ -75,7 +75,7 @@ impl Poses {
     }
 }
 
-fn moved(joint: &UrdfJoint, angle: f64) -> Isometry3<f64> {
+fn moved(joint: &UrdfTreeJoint, angle: f64) -> Isometry3<f64> {
     match joint.kind {
         JointKind::Revolute | JointKind::Continuous => {
             Isometry3::from_parts(Translation3::identity(), UnitQuaternion::from_axis_angle(&joint.axis, angle))

@@ -1,6 +1,6 @@
 //! Range, rate and torque that both sides share.
 
-use crate::import::drive::Drive;
+use crate::import::drive::JointDrive;
 use crate::import::file_errors::FileErrors;
 use crate::import::role::LegRole;
 
@@ -22,11 +22,11 @@ fn reversed([low, high]: [f64; 2]) -> [f64; 2] {
 /// What both sides can do, in the right one's sign: the range that they share, the smaller rate, the smaller torque.
 pub(super) fn mean(
     role: LegRole,
-    right: &Drive,
-    left: &Drive,
+    right: &JointDrive,
+    left: &JointDrive,
     errors: &mut FileErrors,
     lines: &mut Vec<String>,
-) -> Drive {
+) -> JointDrive {
     let name = role.name();
     let (own, image) = (right.range, mirrored(role, left.range));
     let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) < SAME;
@@ -64,7 +64,7 @@ pub(super) fn mean(
     if right.motor != left.motor {
         errors.note(format!("{name}: right and left must have the same motor in the map, or both none"));
     }
-    Drive { range, rate_max, effort, motor: right.motor }
+    JointDrive { range, rate_max, effort, motor: right.motor }
 }
 
 fn near_exactly(a: [f64; 2], b: [f64; 2]) -> bool {

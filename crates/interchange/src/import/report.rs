@@ -1,16 +1,19 @@
 //! Lines for users: which joint does what, what is held, and what looks odd.
 
+use model::Side;
+
 use crate::import::biped::Biped;
-use crate::import::body::Body;
+use crate::import::body::LumpedBody;
 use crate::import::import_map::ImportMap;
-use crate::import::role::{Role, Side};
-use crate::import::urdf_robot::{JointKind, Robot};
+use crate::import::role::JointRole;
+use crate::import::urdf_robot::{JointKind, UrdfRobot};
 use crate::import::waist::Waist;
+use crate::side_name::side_name;
 
 /// Tells the roles of the joints; `legs` are those of right and left leg from the pelvis down.
 pub(super) fn roles(
-    robot: &Robot,
-    used: &[(Role, usize)],
+    robot: &UrdfRobot,
+    used: &[(JointRole, usize)],
     legs: [[usize; 6]; 2],
     waist: &Waist,
     lines: &mut Vec<String>,
@@ -18,15 +21,15 @@ pub(super) fn roles(
     for (side, leg) in Side::BOTH.into_iter().zip(legs) {
         let role = |joint: &usize| {
             used.iter().find_map(|(role, own)| match role {
-                Role::Leg(_, role) if own == joint => Some(role.name().replace('_', " ")),
+                JointRole::Leg(_, role) if own == joint => Some(role.name().replace('_', " ")),
                 _ => None,
             })
         };
         let words = leg.iter().filter_map(|joint| Some(format!("{} {}", role(joint)?, robot.joints[*joint].name)));
         let words: Vec<String> = words.collect();
-        lines.push(format!("{} leg, from the pelvis down: {}", side.name(), words.join(", ")));
+        lines.push(format!("{} leg, from the pelvis down: {}", side_name(side), words.join(", ")));
     }
-    let of_waist = used.iter().filter(|(role, _)| matches!(role, Role::WaistPitch | Role::WaistRoll));
+    let of_waist = used.iter().filter(|(role, _)| matches!(role, JointRole::WaistPitch | JointRole::WaistRoll));
     let of_waist: Vec<String> =
         of_waist.map(|(role, joint)| format!("{} {}", role.name(), robot.joints[*joint].name)).collect();
     let names: Vec<&str> = waist.joints.iter().map(|(joint, _)| robot.joints[*joint].name.as_str()).collect();
@@ -39,10 +42,10 @@ pub(super) fn roles(
 
 /// Tells what is held, at which angles; what slides or floats; and which couplings are left out.
 pub(super) fn held(
-    robot: &Robot,
+    robot: &UrdfRobot,
     map: &ImportMap,
     held: &[(usize, f64)],
-    used: &[(Role, usize)],
+    used: &[(JointRole, usize)],
     lines: &mut Vec<String>,
 ) {
     let name = |joint: usize| robot.joints[joint].name.as_str();
@@ -74,7 +77,7 @@ pub(super) fn held(
         }
     }
     couplings(robot, used, lines);
-    let is_used = |role: Role| used.iter().any(|(own, _)| *own == role);
+    let is_used = |role: JointRole| used.iter().any(|(own, _)| *own == role);
     for (role, joint) in map.joints.iter().filter(|(role, _)| !is_used(*role)) {
         let which = joint.urdf.map_or(String::new(), |joint| format!(" ({})", name(joint)));
         let why = if role.is_in_arm() { "arms are held" } else { "the robot has no such joint" };
@@ -83,7 +86,7 @@ pub(super) fn held(
 }
 
 /// Tells which held joints mimic others: the couplings are left out.
-fn couplings(robot: &Robot, used: &[(Role, usize)], lines: &mut Vec<String>) {
+fn couplings(robot: &UrdfRobot, used: &[(JointRole, usize)], lines: &mut Vec<String>) {
     let is_used = |name: &str| used.iter().any(|(_, joint)| robot.joints[*joint].name == name);
     let mut told: Vec<(&str, Vec<&str>)> = Vec::new();
     for joint in robot.joints.iter().filter(|joint| !is_used(&joint.name)) {
@@ -100,7 +103,7 @@ fn couplings(robot: &Robot, used: &[(Role, usize)], lines: &mut Vec<String>) {
 }
 
 /// All bodies of a biped with their names.
-pub(super) fn bodies(biped: &Biped) -> Vec<(&'static str, Body)> {
+pub(super) fn bodies(biped: &Biped) -> Vec<(&'static str, LumpedBody)> {
     let mut bodies = vec![("the pelvis", biped.pelvis), ("the waist", biped.middle), ("the trunk", biped.trunk)];
     for (side, leg) in biped.legs.iter().enumerate() {
         let names = [

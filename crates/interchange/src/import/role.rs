@@ -1,13 +1,8 @@
 //! What a joint does in the mechanism.
 
-/// A side of the robot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Side {
-    /// The side with negative y.
-    Right,
-    /// The side with positive y.
-    Left,
-}
+use model::Side;
+
+use crate::side_name::side_name;
 
 /// What a joint of a leg does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -28,7 +23,7 @@ pub enum LegRole {
 
 /// What a joint of the mechanism does: the name of its table in the mechanism file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Role {
+pub enum JointRole {
     /// A joint of a leg.
     Leg(Side, LegRole),
     /// Tips the trunk forward.
@@ -39,19 +34,6 @@ pub enum Role {
     Shoulder(Side),
     /// An elbow.
     Elbow(Side),
-}
-
-impl Side {
-    /// Both sides.
-    pub const BOTH: [Side; 2] = [Side::Right, Side::Left];
-
-    /// The side's name: `right`.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Side::Right => "right",
-            Side::Left => "left",
-        }
-    }
 }
 
 impl LegRole {
@@ -81,34 +63,34 @@ impl LegRole {
     }
 }
 
-impl Role {
+impl JointRole {
     /// All roles that a joint of a URDF can have, in the order of the numbers in the mechanism file.
-    pub fn all() -> impl Iterator<Item = Role> {
-        let right = LegRole::ALL.into_iter().rev().map(|role| Role::Leg(Side::Right, role));
-        let left = LegRole::ALL.into_iter().map(|role| Role::Leg(Side::Left, role));
-        let arms = Side::BOTH.into_iter().flat_map(|side| [Role::Shoulder(side), Role::Elbow(side)]);
-        right.chain(left).chain([Role::WaistPitch, Role::WaistRoll]).chain(arms)
+    pub fn all() -> impl Iterator<Item = JointRole> {
+        let right = LegRole::ALL.into_iter().rev().map(|role| JointRole::Leg(Side::Right, role));
+        let left = LegRole::ALL.into_iter().map(|role| JointRole::Leg(Side::Left, role));
+        let arms = Side::BOTH.into_iter().flat_map(|side| [JointRole::Shoulder(side), JointRole::Elbow(side)]);
+        right.chain(left).chain([JointRole::WaistPitch, JointRole::WaistRoll]).chain(arms)
     }
 
     /// The name of its table in map and mechanism file: `right_knee`.
     pub fn name(self) -> String {
         match self {
-            Role::Leg(side, role) => format!("{}_{}", side.name(), role.name()),
-            Role::WaistPitch => "waist_pitch".into(),
-            Role::WaistRoll => "waist_roll".into(),
-            Role::Shoulder(side) => format!("{}_shoulder", side.name()),
-            Role::Elbow(side) => format!("{}_elbow", side.name()),
+            JointRole::Leg(side, role) => format!("{}_{}", side_name(side), role.name()),
+            JointRole::WaistPitch => "waist_pitch".into(),
+            JointRole::WaistRoll => "waist_roll".into(),
+            JointRole::Shoulder(side) => format!("{}_shoulder", side_name(side)),
+            JointRole::Elbow(side) => format!("{}_elbow", side_name(side)),
         }
     }
 
     /// Its number in the mechanism file, 3 to 20.
     pub fn number(self) -> usize {
-        Role::all().position(|role| role == self).unwrap_or_default() + 3
+        JointRole::all().position(|role| role == self).unwrap_or_default() + 3
     }
 
     /// Whether it belongs to an arm.
     pub const fn is_in_arm(self) -> bool {
-        matches!(self, Role::Shoulder(_) | Role::Elbow(_))
+        matches!(self, JointRole::Shoulder(_) | JointRole::Elbow(_))
     }
 }
 
@@ -119,7 +101,7 @@ mod tests {
     #[test]
     fn numbers_and_names_are_those_of_the_mechanism_file() {
         for joint in model::Joint::ALL.into_iter().skip(2) {
-            let role = Role::all().find(|role| role.name() == joint.name()).unwrap();
+            let role = JointRole::all().find(|role| role.name() == joint.name()).unwrap();
             assert_eq!(role.number(), usize::from(joint.number()));
         }
     }

@@ -5,7 +5,7 @@ use nalgebra::{Isometry3, Point3, Vector3};
 
 use crate::import::file_errors::FileErrors;
 use crate::import::toml_text::number;
-use crate::import::urdf_robot::{Robot, Shape, Solid};
+use crate::import::urdf_robot::{Shape, Solid, UrdfRobot};
 
 /// How far above the lowest point of a foot its shapes still belong to the sole (m).
 const FLATNESS: f64 = 3e-3;
@@ -105,7 +105,7 @@ pub(super) fn read_off(
 /// The points at which the shapes of a body could touch a floor below it, z up; `links` maps link coordinates to those
 /// of the points.
 pub(super) fn contact_points(
-    robot: &Robot,
+    robot: &UrdfRobot,
     body_of: &[usize],
     body: usize,
     links: &[Isometry3<f64>],

@@ -1,13 +1,15 @@
 //! Makes the robot its own mirror image: the controller always stands on the right foot and mirrors the rest.
 
+use model::Side;
 use nalgebra::{Unit, Vector3};
 
 use crate::import::biped::{Biped, Hinge};
-use crate::import::body::Body;
+use crate::import::body::LumpedBody;
 use crate::import::file_errors::FileErrors;
 use crate::import::range_pair::{self, mirrored};
-use crate::import::role::{LegRole, Role, Side};
-use crate::import::urdf_robot::Robot;
+use crate::import::role::{JointRole, LegRole};
+use crate::import::urdf_robot::UrdfRobot;
+use crate::side_name::side_name;
 
 /// Rounding of a URDF's decimals (m, rad, and share).
 const ROUNDING: f64 = 1e-6;
@@ -19,7 +21,7 @@ const ANGLE_MAX: f64 = 0.035;
 const DISTANCE_MAX: f64 = 0.02;
 
 /// Makes both sides the mean of one and the mirror image of the other, and puts the middle at y = 0.
-pub(super) fn symmetrise(biped: &mut Biped, robot: &Robot, errors: &mut FileErrors, lines: &mut Vec<String>) {
+pub(super) fn symmetrise(biped: &mut Biped, robot: &UrdfRobot, errors: &mut FileErrors, lines: &mut Vec<String>) {
     let mut changes = Changes::default();
     let [right, left] = biped.legs;
     for (place, role) in biped.roles.into_iter().enumerate() {
@@ -31,7 +33,7 @@ pub(super) fn symmetrise(biped: &mut Biped, robot: &Robot, errors: &mut FileErro
             place: across(hinge.place),
             axis: mirrored_axis(role, hinge.axis),
             sign: other.sign,
-            drive: crate::import::drive::Drive {
+            drive: crate::import::drive::JointDrive {
                 range: mirrored(role, hinge.drive.range),
                 motor: other.drive.motor,
                 ..hinge.drive
@@ -51,7 +53,7 @@ pub(super) fn symmetrise(biped: &mut Biped, robot: &Robot, errors: &mut FileErro
     biped.mount.y = 0.0;
     if let Some(waist) = &mut biped.waist {
         for (hinge, axis, name) in waist.iter_mut().zip([1, 0]).map(|(hinge, axis)| {
-            let name = if axis == 1 { Role::WaistPitch.name() } else { Role::WaistRoll.name() };
+            let name = if axis == 1 { JointRole::WaistPitch.name() } else { JointRole::WaistRoll.name() };
             (hinge, axis, name)
         }) {
             middle_hinge(hinge, axis, &name, &mut changes);
@@ -64,7 +66,7 @@ pub(super) fn symmetrise(biped: &mut Biped, robot: &Robot, errors: &mut FileErro
 fn mean_hinge(
     role: LegRole,
     [own, other]: [&Hinge; 2],
-    robot: &Robot,
+    robot: &UrdfRobot,
     errors: &mut FileErrors,
     changes: &mut Changes,
     lines: &mut Vec<String>,
@@ -151,7 +153,7 @@ impl Changes {
         }
     }
 
-    fn body(&mut self, before: &Body, after: &Body, of: &str) {
+    fn body(&mut self, before: &LumpedBody, after: &LumpedBody, of: &str) {
         if after.mass == 0.0 {
             return;
         }
@@ -188,7 +190,7 @@ impl Changes {
         if !parts.is_empty() {
             lines.push(format!("made symmetric: {}", parts.join("; ")));
         }
-        let sides = [Side::Right.name(), Side::Left.name()].join(" and ");
+        let sides = Side::BOTH.map(side_name).join(" and ");
         lines.extend(large.into_iter().map(|what| format!("large difference of {sides}, the mean is taken: {what}")));
     }
 }

@@ -36,13 +36,13 @@ pub(super) const EFFORT: Allowed = Allowed { min: 0.0, max: 1e18, unit: "N·m or
 pub(super) const FACTOR: Allowed = Allowed { min: -1e6, max: 1e6, unit: "no unit" };
 
 /// Reads attributes of the parts of one link or joint.
-pub(super) struct Numbers<'a, 'f> {
+pub(super) struct UrdfNumbers<'a, 'f> {
     /// Link or joint with its name, for messages.
     pub owner: String,
     pub errors: &'a mut FileErrors<'f>,
 }
 
-impl Numbers<'_, '_> {
+impl UrdfNumbers<'_, '_> {
     /// One number; `None` where the attribute is absent, or wrong and noted.
     pub(super) fn optional(&mut self, element: &Element, attribute: &str, allowed: Allowed) -> Option<f64> {
         let text = element.attribute(attribute)?;

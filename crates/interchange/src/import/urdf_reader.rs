@@ -4,11 +4,11 @@ use std::collections::HashMap;
 
 use nalgebra::{Matrix3, Unit, Vector3};
 
-use crate::import::body::Body;
+use crate::import::body::LumpedBody;
 use crate::import::file_errors::FileErrors;
 use crate::import::urdf_format;
-use crate::import::urdf_numbers::{AXIS, EFFORT, FACTOR, LIMIT, MASS, MOMENT, Numbers, PRODUCT, RATE, SIZE};
-use crate::import::urdf_robot::{JointKind, Limit, Mimic, Robot, Shape, Solid, UrdfJoint, UrdfLink};
+use crate::import::urdf_numbers::{AXIS, EFFORT, FACTOR, LIMIT, MASS, MOMENT, PRODUCT, RATE, SIZE, UrdfNumbers};
+use crate::import::urdf_robot::{JointKind, Mimic, Shape, Solid, UrdfLimit, UrdfLink, UrdfRobot, UrdfTreeJoint};
 use crate::import::urdf_tree;
 use crate::import::xml_tree::Element;
 use crate::import::{ImportError, NamedText};
@@ -18,7 +18,7 @@ use crate::import::{ImportError, NamedText};
 /// # Errors
 /// One line if the text is another format, no XML, or broken off; else every mistake in links and joints, with line,
 /// link or joint, element, value, and what would be right.
-pub(super) fn read(urdf: NamedText) -> Result<Robot, ImportError> {
+pub(super) fn read(urdf: NamedText) -> Result<UrdfRobot, ImportError> {
     let root = urdf_format::robot_element(urdf.text)
         .map_err(|what| ImportError::new(format!("{}: no URDF: {what}", urdf.file)))?;
     let mut errors = FileErrors::new(urdf.file);
@@ -45,18 +45,18 @@ pub(super) fn read(urdf: NamedText) -> Result<Robot, ImportError> {
     }
     let root_link = if errors.is_empty() { urdf_tree::root(&links, &joints, &mut errors) } else { None };
     let name = root.attribute("name").unwrap_or_default().to_string();
-    errors.finish(root_link.map(|root| Robot { name, links, joints, root }))
+    errors.finish(root_link.map(|root| UrdfRobot { name, links, joints, root }))
 }
 
 fn read_link(element: &Element, errors: &mut FileErrors) -> UrdfLink {
     let name = name(element, errors);
-    let mut numbers = Numbers { owner: format!("link {name}"), errors };
-    let body = element.child("inertial").map_or(Body::default(), |inertial| read_body(inertial, &mut numbers));
+    let mut numbers = UrdfNumbers { owner: format!("link {name}"), errors };
+    let body = element.child("inertial").map_or(LumpedBody::default(), |inertial| read_body(inertial, &mut numbers));
     let shapes = element.children("collision").filter_map(|shape| read_shape(shape, &mut numbers)).collect();
     UrdfLink { name, line: element.line, body, shapes }
 }
 
-fn read_body(inertial: &Element, numbers: &mut Numbers) -> Body {
+fn read_body(inertial: &Element, numbers: &mut UrdfNumbers) -> LumpedBody {
     let pose = numbers.origin(inertial);
     let mass = match inertial.child("mass") {
         Some(mass) => numbers.required(mass, "value", MASS),
@@ -70,10 +70,10 @@ fn read_body(inertial: &Element, numbers: &mut Numbers) -> Body {
         let [xy, xz, yz] = ["ixy", "ixz", "iyz"].map(|key| numbers.optional(inertia, key, PRODUCT).unwrap_or_default());
         Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
     });
-    Body { mass, com: Vector3::zeros(), inertia }.moved(&pose)
+    LumpedBody { mass, com: Vector3::zeros(), inertia }.moved(&pose)
 }
 
-fn read_shape(collision: &Element, numbers: &mut Numbers) -> Option<Shape> {
+fn read_shape(collision: &Element, numbers: &mut UrdfNumbers) -> Option<Shape> {
     let geometry = collision.child("geometry")?;
     let solid = if let Some(element) = geometry.child("box") {
         Solid::Box(numbers.vector(element, "size", Vector3::zeros(), SIZE))
@@ -86,9 +86,9 @@ fn read_shape(collision: &Element, numbers: &mut Numbers) -> Option<Shape> {
     Some(Shape { pose: numbers.origin(collision), solid })
 }
 
-fn read_joint(element: &Element, links: &HashMap<&str, usize>, errors: &mut FileErrors) -> Option<UrdfJoint> {
+fn read_joint(element: &Element, links: &HashMap<&str, usize>, errors: &mut FileErrors) -> Option<UrdfTreeJoint> {
     let name = name(element, errors);
-    let mut numbers = Numbers { owner: format!("joint {name}"), errors };
+    let mut numbers = UrdfNumbers { owner: format!("joint {name}"), errors };
     let kind = kind(element, &mut numbers);
     let mut end = |tag: &str| {
         let at = element.child(tag).unwrap_or(element);
@@ -117,7 +117,7 @@ fn read_joint(element: &Element, links: &HashMap<&str, usize>, errors: &mut File
         unit
     });
     let limit = element.child("limit").filter(|_| needs_axis);
-    let limit = limit.map_or(Limit::default(), |limit| Limit {
+    let limit = limit.map_or(UrdfLimit::default(), |limit| UrdfLimit {
         given: true,
         complete: limit.attribute("lower").is_some() && limit.attribute("upper").is_some(),
         lower: numbers.optional(limit, "lower", LIMIT).unwrap_or_default(),
@@ -131,7 +131,7 @@ fn read_joint(element: &Element, links: &HashMap<&str, usize>, errors: &mut File
         offset: numbers.optional(mimic, "offset", FACTOR).unwrap_or_default(),
     });
     let line = element.line;
-    Some(UrdfJoint { name, line, kind: kind?, parent: parent?, child: child?, origin, axis: axis?, limit, mimic })
+    Some(UrdfTreeJoint { name, line, kind: kind?, parent: parent?, child: child?, origin, axis: axis?, limit, mimic })
 }
 
 fn name(element: &Element, errors: &mut FileErrors) -> String {
@@ -142,7 +142,7 @@ fn name(element: &Element, errors: &mut FileErrors) -> String {
     name.to_string()
 }
 
-fn kind(element: &Element, numbers: &mut Numbers) -> Option<JointKind> {
+fn kind(element: &Element, numbers: &mut UrdfNumbers) -> Option<JointKind> {
     let told = element.attribute("type");
     let kinds = [
         JointKind::Revolute,

@@ -2,14 +2,14 @@
 
 use nalgebra::{Isometry3, Unit, Vector3};
 
-use crate::import::body::Body;
+use crate::import::body::LumpedBody;
 
 /// A robot as its URDF describes it: one tree.
 #[derive(Clone, Debug)]
-pub(super) struct Robot {
+pub(super) struct UrdfRobot {
     pub name: String,
     pub links: Vec<UrdfLink>,
-    pub joints: Vec<UrdfJoint>,
+    pub joints: Vec<UrdfTreeJoint>,
     /// Index of the link that is no joint's child.
     pub root: usize,
 }
@@ -21,7 +21,7 @@ pub(super) struct UrdfLink {
     /// Line in the file.
     pub line: usize,
     /// Mass and inertia in the link's frame; zero without an `<inertial>`.
-    pub body: Body,
+    pub body: LumpedBody,
     /// Collision shapes that are no meshes.
     pub shapes: Vec<Shape>,
 }
@@ -55,7 +55,7 @@ pub(super) enum JointKind {
 
 /// A joint.
 #[derive(Clone, Debug)]
-pub(super) struct UrdfJoint {
+pub(super) struct UrdfTreeJoint {
     pub name: String,
     /// Line in the file.
     pub line: usize,
@@ -67,13 +67,13 @@ pub(super) struct UrdfJoint {
     pub origin: Isometry3<f64>,
     /// Axis in the child's frame.
     pub axis: Unit<Vector3<f64>>,
-    pub limit: Limit,
+    pub limit: UrdfLimit,
     pub mimic: Option<Mimic>,
 }
 
 /// Limits of a joint as written (rad or m).
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Limit {
+pub(super) struct UrdfLimit {
     /// Whether there is a `<limit>`, and one that tells both ends.
     pub given: bool,
     pub complete: bool,
@@ -106,7 +106,7 @@ impl JointKind {
     }
 }
 
-impl UrdfJoint {
+impl UrdfTreeJoint {
     /// Whether it turns about one axis.
     pub(super) fn turns(&self) -> bool {
         matches!(self.kind, JointKind::Revolute | JointKind::Continuous)

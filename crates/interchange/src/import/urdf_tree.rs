@@ -1,13 +1,13 @@
 //! Checks that links and joints are one tree.
 
 use crate::import::file_errors::FileErrors;
-use crate::import::urdf_robot::{UrdfJoint, UrdfLink};
+use crate::import::urdf_robot::{UrdfLink, UrdfTreeJoint};
 
 /// Most names that a message lists.
 const NAMES_MAX: usize = 12;
 
 /// Index of the root link; notes joints in a ring, links with two parents, and several roots.
-pub(super) fn root(links: &[UrdfLink], joints: &[UrdfJoint], errors: &mut FileErrors) -> Option<usize> {
+pub(super) fn root(links: &[UrdfLink], joints: &[UrdfTreeJoint], errors: &mut FileErrors) -> Option<usize> {
     let mut parent_joint: Vec<Option<usize>> = vec![None; links.len()];
     for (index, joint) in joints.iter().enumerate() {
         let child = &links[joint.child].name;
@@ -15,7 +15,7 @@ pub(super) fn root(links: &[UrdfLink], joints: &[UrdfJoint], errors: &mut FileEr
             let text = "must connect two links: it leads from a link to itself";
             errors.note_at(joint.line, format!("joint {}: {text}, {child}", joint.name));
         } else if let Some(other) = parent_joint[joint.child] {
-            let other: &UrdfJoint = &joints[other];
+            let other: &UrdfTreeJoint = &joints[other];
             errors.note_at(
                 joint.line,
                 format!(

@@ -5,8 +5,8 @@ use crate::import::file_errors::FileErrors;
 use crate::import::import_map::ImportMap;
 use crate::import::leg_pair::LegPair;
 use crate::import::posture::Poses;
-use crate::import::role::Role;
-use crate::import::urdf_robot::Robot;
+use crate::import::role::JointRole;
+use crate::import::urdf_robot::UrdfRobot;
 
 /// Least cosine between a waist joint's axis and y or x.
 const ALONG: f64 = 0.85;
@@ -26,7 +26,7 @@ pub(super) struct Waist {
 
 /// Finds the waist; notes joints of the map that are not in it. `poses` are those of the standing robot.
 pub(super) fn find(
-    robot: &Robot,
+    robot: &UrdfRobot,
     map: &ImportMap,
     graph: &BodyGraph,
     legs: &LegPair,
@@ -34,8 +34,8 @@ pub(super) fn find(
     errors: &mut FileErrors,
 ) -> Waist {
     let joints = way_to_trunk(robot, graph, legs);
-    let told = |role: Role| map.joint(role).urdf;
-    let pick = |role: Role, axis: usize| match told(role) {
+    let told = |role: JointRole| map.joint(role).urdf;
+    let pick = |role: JointRole, axis: usize| match told(role) {
         Some(joint) => joints.iter().find(|(own, _)| *own == joint).map(|(own, _)| *own),
         None => {
             let fits = |joint: &&(usize, usize)| {
@@ -44,15 +44,18 @@ pub(super) fn find(
             joints.iter().find(fits).map(|(own, _)| *own)
         }
     };
-    let (pitch, roll) = (pick(Role::WaistPitch, 1), pick(Role::WaistRoll, 0));
-    for role in [Role::WaistPitch, Role::WaistRoll] {
+    let (pitch, roll) = (pick(JointRole::WaistPitch, 1), pick(JointRole::WaistRoll, 0));
+    for role in [JointRole::WaistPitch, JointRole::WaistRoll] {
         if let Some(joint) = told(role).filter(|joint| joints.iter().all(|(own, _)| own != joint)) {
             let (name, line) = (&robot.joints[joint].name, robot.joints[joint].line);
             errors.note_at(line, format!("joint {name} as {}: must lie between pelvis and trunk", role.name()));
         }
     }
     let roles = pitch.zip(roll).map(|(pitch, roll)| [pitch, roll]).filter(|[pitch, roll]| pitch != roll);
-    if roles.is_none() && (told(Role::WaistPitch).is_some() || told(Role::WaistRoll).is_some()) && errors.is_empty() {
+    if roles.is_none()
+        && (told(JointRole::WaistPitch).is_some() || told(JointRole::WaistRoll).is_some())
+        && errors.is_empty()
+    {
         errors.note("a waist must both pitch and roll: leave joint.waist_pitch and joint.waist_roll out of the map");
     }
     Waist { joints, roles }
@@ -60,7 +63,7 @@ pub(super) fn find(
 
 /// Follows the heaviest branch from the pelvis until arms branch off; the trunk is there, unless nearly all mass is
 /// nearer.
-fn way_to_trunk(robot: &Robot, graph: &BodyGraph, legs: &LegPair) -> Vec<(usize, usize)> {
+fn way_to_trunk(robot: &UrdfRobot, graph: &BodyGraph, legs: &LegPair) -> Vec<(usize, usize)> {
     let mut closed: Vec<usize> = legs.joints.iter().map(|leg| leg[0]).collect();
     let mut way = Vec::new();
     let mut body = legs.pelvis;

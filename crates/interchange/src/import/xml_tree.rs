@@ -59,7 +59,7 @@ pub(super) fn root_element(text: &str) -> Result<Element, String> {
         return Err(format!("it has {} bytes, and may have {LENGTH_MAX}", text.len()));
     }
     let mut reader = Reader::from_str(text);
-    let mut lines = Lines { text, at: 0, line: 1 };
+    let mut lines = LineCounter { text, at: 0, line: 1 };
     let mut open: Vec<Element> = Vec::new();
     let mut root = None;
     let (mut elements, mut links) = (0, 0);
@@ -143,13 +143,13 @@ fn broken_off(open: &[Element], rest: &str, line: usize, text: &str) -> String {
 }
 
 /// Counts lines once through a text.
-struct Lines<'t> {
+struct LineCounter<'t> {
     text: &'t str,
     at: usize,
     line: usize,
 }
 
-impl Lines<'_> {
+impl LineCounter<'_> {
     /// Line of what stands at a byte or after the white space there; bytes must come in order.
     fn line_at(&mut self, byte: usize) -> usize {
         let bytes = self.text.as_bytes();
