@@ -5,3 +5,4 @@ pub mod mjcf;
 pub mod scaled_parameters;
 mod side_name;
 pub mod urdf;
+mod xml_lines;

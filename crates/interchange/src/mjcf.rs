@@ -15,8 +15,6 @@
 //! micrometres. Friction is a cone (`elliptic`), a tenth as soft as the normal direction (`impratio`), so that a loaded
 //! sole does not creep.
 
-use std::fmt::Write;
-
 use model::{Body, Joint, Mechanism, Side};
 use nalgebra::{UnitQuaternion, Vector3};
 use plant::PlantParameters;
@@ -24,6 +22,7 @@ use quick_xml::escape::escape;
 
 use crate::side_name::side_name;
 use crate::urdf::equivalent_sides;
+use crate::xml_lines::{XmlLines, numbers};
 
 /// Time constant (s) and damping ratio; impedance from 0.99 to 0.999 over half a millimetre.
 const CONTACT: &str = r#"solref="0.004 1" solimp="0.99 0.999 0.0005""#;
@@ -34,7 +33,7 @@ const UNUSED_FRICTION: &str = "0.005 0.0001";
 ///
 /// `period` is the control period (s). The text is complete: MuJoCo loads it without other files.
 pub fn mjcf_text(mechanism: &Mechanism, parameters: &PlantParameters, period: f64) -> String {
-    let mut out = Lines::default();
+    let mut out = XmlLines::default();
     let timestep = period / f64::from(parameters.steps_per_period);
     let friction = format!(r#"friction="{} {UNUSED_FRICTION}""#, parameters.contact.friction);
     out.open(format_args!(r#"mujoco model="{}""#, escape(&mechanism.name)));
@@ -74,7 +73,7 @@ pub fn mjcf_text(mechanism: &Mechanism, parameters: &PlantParameters, period: f6
 }
 
 /// Textures and colours for viewers.
-fn appearance(out: &mut Lines) {
+fn appearance(out: &mut XmlLines) {
     out.open("asset");
     out.line(
         r#"<texture name="floor" type="2d" builtin="checker" rgb1="0.85 0.87 0.9" rgb2="0.75 0.78 0.82" width="200" height="200"/>"#,
@@ -90,7 +89,7 @@ fn appearance(out: &mut Lines) {
 }
 
 /// The body of a link that weighs something, with the joints that lead to it and all that it carries.
-fn body(out: &mut Lines, mechanism: &Mechanism, parameters: &PlantParameters, link: Joint, friction: &str) {
+fn body(out: &mut XmlLines, mechanism: &Mechanism, parameters: &PlantParameters, link: Joint, friction: &str) {
     let root = Mechanism::RIGHT_FOOT;
     let joints = joints_of(mechanism, link);
     let origin = |joint: &Joint| mechanism.links[*joint].origin;
@@ -148,7 +147,7 @@ fn place_on_parent(mechanism: &Mechanism, link: Joint) -> Vector3<f64> {
     joints_of(mechanism, link).iter().map(|joint| mechanism.links[*joint].origin).sum()
 }
 
-fn hinge(out: &mut Lines, mechanism: &Mechanism, joint: Joint, place: Vector3<f64>) {
+fn hinge(out: &mut XmlLines, mechanism: &Mechanism, joint: Joint, place: Vector3<f64>) {
     let link = &mechanism.links[joint];
     let range = link.limits.map_or(String::new(), |l| format!(r#" range="{} {}""#, l.angle_min, l.angle_max));
     let armature = link.motor.map_or(0.0, |motor| motor.reflected_inertia());
@@ -160,7 +159,7 @@ fn hinge(out: &mut Lines, mechanism: &Mechanism, joint: Joint, place: Vector3<f6
     ));
 }
 
-fn inertial(out: &mut Lines, body: &Body) {
+fn inertial(out: &mut XmlLines, body: &Body) {
     let turned = body.principal_axes.map_or_else(String::new, |axes| {
         let turn = UnitQuaternion::from_rotation_matrix(&axes);
         format!(r#" quat="{}""#, numbers(&[turn.w, turn.i, turn.j, turn.k]))
@@ -175,7 +174,7 @@ fn inertial(out: &mut Lines, body: &Body) {
 
 /// Visual shape of a link: rods to the joints that it carries, and the box of its mass and moments if it carries none
 /// or several.
-fn appearance_of(out: &mut Lines, mechanism: &Mechanism, link: Joint) {
+fn appearance_of(out: &mut XmlLines, mechanism: &Mechanism, link: Joint) {
     // There is no rod to a joint at the same point.
     let ends = carried_by(mechanism, link).map(|child| place_on_parent(mechanism, child));
     let ends: Vec<_> = ends.filter(|end| end.norm() > 0.0).collect();
@@ -194,7 +193,7 @@ fn appearance_of(out: &mut Lines, mechanism: &Mechanism, link: Joint) {
 }
 
 /// Writes the foot as a box on its sole, half as high as the ankle.
-fn foot(out: &mut Lines, mechanism: &Mechanism, side: Side, friction: &str) {
+fn foot(out: &mut XmlLines, mechanism: &Mechanism, side: Side, friction: &str) {
     let sole = mechanism.sole;
     let height = sole.ankle_height / 2.0;
     let at = mechanism.sole_in_foot(side);
@@ -210,7 +209,7 @@ fn foot(out: &mut Lines, mechanism: &Mechanism, side: Side, friction: &str) {
 }
 
 /// What the trunk carries: a point, but for the trace of inertia that MuJoCo wants a body to have.
-fn payload(out: &mut Lines, parameters: &PlantParameters) {
+fn payload(out: &mut XmlLines, parameters: &PlantParameters) {
     let payload = parameters.payload;
     if payload.mass > 0.0 {
         out.open(format_args!(r#"body name="payload" pos="{}""#, numbers(payload.at.as_slice())));
@@ -221,7 +220,7 @@ fn payload(out: &mut Lines, parameters: &PlantParameters) {
 }
 
 /// Writes the sensors: joint angles and rates, the trunk's orientation and rate, and the floor's force on each foot.
-fn sensors(out: &mut Lines) {
+fn sensors(out: &mut XmlLines) {
     out.open("sensor");
     for (kind, suffix) in [("jointpos", "angle"), ("jointvel", "rate")] {
         for joint in Joint::ALL.into_iter().filter(|joint| joint.is_powered()) {
@@ -237,37 +236,6 @@ fn sensors(out: &mut Lines) {
         ));
     }
     out.close("sensor");
-}
-
-/// Numbers in full precision, separated by spaces.
-fn numbers(values: &[f64]) -> String {
-    // Adding zero turns -0 into 0.
-    values.iter().map(|value| (value + 0.0).to_string()).collect::<Vec<_>>().join(" ")
-}
-
-/// XML text, written line by line.
-#[derive(Default)]
-struct Lines {
-    text: String,
-    depth: usize,
-}
-
-impl Lines {
-    fn line(&mut self, line: impl std::fmt::Display) {
-        // A String takes everything.
-        let _ = writeln!(self.text, "{:indent$}{line}", "", indent = 2 * self.depth);
-    }
-
-    /// Opens an element, given by name and attributes without brackets.
-    fn open(&mut self, element: impl std::fmt::Display) {
-        self.line(format_args!("<{element}>"));
-        self.depth += 1;
-    }
-
-    fn close(&mut self, name: &str) {
-        self.depth -= 1;
-        self.line(format_args!("</{name}>"));
-    }
 }
 
 #[cfg(test)]

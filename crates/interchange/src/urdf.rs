@@ -7,34 +7,34 @@
 //!
 //! Pinocchio drops the root link's mass when the base is fixed: load it there with a free-flyer.
 
-use model::{Body, Joint, JointLimits, Mechanism, Motor, Side};
-use nalgebra::Vector3;
-use urdf_rs::{
-    Axis, Collision, Geometry, Inertia, Inertial, JointLimit, JointType, Link, LinkName, Mass, Pose, Robot, UrdfError,
-    Vec3, Visual,
-};
+use std::convert::Infallible;
 
-/// Writes the mechanism as the text of a URDF file.
-///
-/// # Errors
-/// The mechanism cannot be written as XML, which no loaded mechanism should cause.
-pub fn urdf_text(mechanism: &Mechanism) -> Result<String, UrdfError> {
-    let robot = urdf_rs::write_to_string(&urdf(mechanism))?;
-    // The first tag is the robot's.
-    let robot = robot.replacen('>', &format!(">{FOR_MUJOCO}"), 1);
-    Ok(format!("<?xml version=\"1.0\"?>\n{robot}\n"))
-}
+use model::{Body, Joint, Link, Mechanism, Side};
+use nalgebra::Vector3;
+use quick_xml::escape::escape;
+
+use crate::xml_lines::{XmlLines, numbers};
 
 /// MuJoCo's element for the mass of massless links.
-const FOR_MUJOCO: &str = "\n  <mujoco><compiler boundmass=\"1e-6\" boundinertia=\"1e-9\"/></mujoco>";
+const FOR_MUJOCO: &str = r#"<mujoco><compiler boundmass="1e-6" boundinertia="1e-9"/></mujoco>"#;
 
-/// Converts the mechanism to a URDF robot: a floating tree rooted at the right foot.
-pub fn urdf(mechanism: &Mechanism) -> Robot {
-    let carried = Joint::ALL.into_iter().filter(|joint| *joint >= root());
-    let links = carried.map(|joint| link(mechanism, joint)).collect();
-    let powered = Joint::ALL.into_iter().filter(|joint| joint.is_powered());
-    let joints = powered.map(|each| joint(mechanism, each)).collect();
-    Robot { name: mechanism.name.clone(), version: None, links, joints, materials: Vec::new() }
+/// Writes the mechanism as the text of a URDF file: a floating tree rooted at the right foot.
+///
+/// # Errors
+/// None: every mechanism can be written.
+pub fn urdf_text(mechanism: &Mechanism) -> Result<String, Infallible> {
+    let mut out = XmlLines::default();
+    out.line(r#"<?xml version="1.0"?>"#);
+    out.open(format_args!(r#"robot name="{}""#, escape(&mechanism.name)));
+    out.line(FOR_MUJOCO);
+    for joint in Joint::ALL.into_iter().filter(|joint| *joint >= root()) {
+        link(&mut out, mechanism, joint);
+    }
+    for each in Joint::ALL.into_iter().filter(|joint| joint.is_powered()) {
+        joint(&mut out, &mechanism.links[each], each);
+    }
+    out.close("robot");
+    Ok(out.text)
 }
 
 /// The joint whose link is the root.
@@ -47,73 +47,65 @@ fn link_name(joint: Joint) -> String {
     joint.link_name().map_or_else(|| format!("{}_link", joint.name()), str::to_owned)
 }
 
-fn joint(mechanism: &Mechanism, joint: Joint) -> urdf_rs::Joint {
-    let link = &mechanism.links[joint];
-    urdf_rs::Joint {
-        name: joint.name().to_string(),
-        joint_type: JointType::Revolute,
-        origin: at(link.origin),
-        parent: LinkName { link: link_name(link.parent.unwrap_or(root())) },
-        child: LinkName { link: link_name(joint) },
-        axis: Axis { xyz: vec3(*link.axis) },
-        limit: limit(link.limits, link.motor),
-        calibration: None,
-        dynamics: None,
-        mimic: None,
-        safety_controller: None,
-    }
+/// A joint with its range and rate; as effort the torque of its motor at standstill and full voltage.
+fn joint(out: &mut XmlLines, link: &Link, joint: Joint) {
+    let (lower, upper, velocity) = link.limits.map_or((0.0, 0.0, 0.0), |l| (l.angle_min, l.angle_max, l.rate_max));
+    let effort = link.motor.map_or(0.0, |motor| motor.torque_max());
+    out.open(format_args!(r#"joint name="{}" type="revolute""#, joint.name()));
+    origin(out, link.origin);
+    out.line(format_args!(r#"<parent link="{}"/>"#, link_name(link.parent.unwrap_or(root()))));
+    out.line(format_args!(r#"<child link="{}"/>"#, link_name(joint)));
+    out.line(format_args!(r#"<axis xyz="{}"/>"#, numbers(link.axis.as_slice())));
+    out.line(format_args!(r#"<limit lower="{lower}" upper="{upper}" effort="{effort}" velocity="{velocity}"/>"#));
+    out.close("joint");
 }
 
-/// Range and rate of a joint; as effort the torque of its motor at standstill and full voltage.
-fn limit(limits: Option<JointLimits>, motor: Option<Motor>) -> JointLimit {
-    let (lower, upper, velocity) = limits.map_or((0.0, 0.0, 0.0), |l| (l.angle_min, l.angle_max, l.rate_max));
-    let effort = motor.map_or(0.0, |motor| motor.torque_max());
-    JointLimit { lower, upper, effort, velocity, ..Default::default() }
-}
-
-fn link(mechanism: &Mechanism, joint: Joint) -> Link {
+fn link(out: &mut XmlLines, mechanism: &Mechanism, joint: Joint) {
     let body = mechanism.links[joint].body;
-    let foot = Side::BOTH.into_iter().find(|side| mechanism.foot(*side) == joint);
-    let (visual, collision) = match foot {
+    out.open(format_args!(r#"link name="{}""#, link_name(joint)));
+    inertial(out, &body);
+    if let Some(side) = Side::BOTH.into_iter().find(|side| mechanism.foot(*side) == joint) {
         // Only the soles collide: thighs and pelvis overlap at the hips, and a simulator would push them apart.
-        Some(side) => {
-            let (place, geometry) = foot_box(mechanism, side);
-            (Some((place, geometry.clone())), Some((place, geometry)))
-        }
-        None if body.mass > 0.0 => (Some((body.com, equivalent_box(&body))), None),
-        None => (None, None),
-    };
-    let visual = visual.map(|(place, geometry)| Visual { origin: at(place), geometry, ..Default::default() });
-    let collision = collision.map(|(place, geometry)| Collision { origin: at(place), geometry, ..Default::default() });
-    Link {
-        name: link_name(joint),
-        inertial: inertial(&body),
-        visual: visual.into_iter().collect(),
-        collision: collision.into_iter().collect(),
+        let (centre, size) = foot_box(mechanism, side);
+        box_at(out, "visual", centre, size);
+        box_at(out, "collision", centre, size);
+    } else if body.mass > 0.0 {
+        box_at(out, "visual", body.com, equivalent_sides(&body));
     }
+    out.close("link");
 }
 
-fn inertial(body: &Body) -> Inertial {
+fn inertial(out: &mut XmlLines, body: &Body) {
     let inertia = body.inertia_matrix();
     let [ixx, iyy, izz] = inertia.diagonal().into();
-    Inertial {
-        origin: at(body.com),
-        mass: Mass { value: body.mass },
-        inertia: Inertia { ixx, iyy, izz, ixy: inertia.m12, ixz: inertia.m13, iyz: inertia.m23 },
-    }
+    let (ixy, ixz, iyz) = (inertia.m12, inertia.m13, inertia.m23);
+    out.open("inertial");
+    origin(out, body.com);
+    out.line(format_args!(r#"<mass value="{}"/>"#, body.mass));
+    out.line(format_args!(r#"<inertia ixx="{ixx}" ixy="{ixy}" ixz="{ixz}" iyy="{iyy}" iyz="{iyz}" izz="{izz}"/>"#));
+    out.close("inertial");
 }
 
-/// The foot as a box on its sole, half as high as the ankle.
-fn foot_box(mechanism: &Mechanism, side: Side) -> (Vector3<f64>, Geometry) {
+/// A box as the shape of a link, for viewers or for contact.
+fn box_at(out: &mut XmlLines, shape: &str, centre: Vector3<f64>, size: Vector3<f64>) {
+    out.open(shape);
+    origin(out, centre);
+    out.open("geometry");
+    out.line(format_args!(r#"<box size="{}"/>"#, numbers(size.as_slice())));
+    out.close("geometry");
+    out.close(shape);
+}
+
+fn origin(out: &mut XmlLines, place: Vector3<f64>) {
+    out.line(format_args!(r#"<origin xyz="{}" rpy="0 0 0"/>"#, numbers(place.as_slice())));
+}
+
+/// The foot as a box on its sole, half as high as the ankle: its centre and its sides (m).
+fn foot_box(mechanism: &Mechanism, side: Side) -> (Vector3<f64>, Vector3<f64>) {
     let sole = mechanism.sole;
     let height = sole.ankle_height / 2.0;
     let centre = mechanism.sole_in_foot(side) + Vector3::new((sole.ahead - sole.behind) / 2.0, 0.0, height / 2.0);
-    let size = Vec3([sole.ahead + sole.behind, 2.0 * sole.half_width, height]);
-    (centre, Geometry::Box { size })
-}
-
-fn equivalent_box(body: &Body) -> Geometry {
-    Geometry::Box { size: vec3(equivalent_sides(body)) }
+    (centre, Vector3::new(sole.ahead + sole.behind, 2.0 * sole.half_width, height))
 }
 
 /// Sides of the box of uniform density that has the body's mass and moments (m): they follow from Iz = m (a² + b²) / 12
@@ -123,76 +115,28 @@ pub(crate) fn equivalent_sides(body: &Body) -> Vector3<f64> {
     body.inertia.map(|moment| (6.0 * (sum - 2.0 * moment) / body.mass).max(0.0).sqrt())
 }
 
-fn at(place: Vector3<f64>) -> Pose {
-    Pose { xyz: vec3(place), rpy: Vec3([0.0; 3]) }
-}
-
-fn vec3(vector: Vector3<f64>) -> Vec3 {
-    Vec3(vector.into())
-}
-
 #[cfg(test)]
 mod tests {
     use config::Config;
 
     use super::*;
 
-    fn mechanism() -> Mechanism {
-        Mechanism::load(format!("{}/../../config/mechanism.toml", env!("CARGO_MANIFEST_DIR")))
-            .unwrap_or_else(|errors| panic!("{errors}"))
-    }
-
-    /// The robot as another program reads it.
-    fn read_back(mechanism: &Mechanism) -> Robot {
-        urdf_rs::read_from_string(&urdf_text(mechanism).unwrap()).unwrap()
-    }
-
-    #[test]
-    fn urdf_robot_has_the_mass_of_the_mechanism() {
-        let mass: f64 = read_back(&mechanism()).links.iter().map(|link| link.inertial.mass.value).sum();
-        assert!((mass - 73.031).abs() < 1e-12, "{mass}");
-    }
-
-    #[test]
-    fn urdf_joints_have_the_axes_and_limits_of_the_mechanism() {
-        let mechanism = mechanism();
-        let robot = read_back(&mechanism);
-        assert_eq!((robot.links.len(), robot.joints.len()), (19, 18));
-        for exported in &robot.joints {
-            let joint = Joint::from_name(&exported.name).expect("a joint of the mechanism");
-            let link = &mechanism.links[joint];
-            let limits = link.limits.expect("powered");
-            assert_eq!(Vector3::from(exported.axis.xyz.0), *link.axis);
-            assert_eq!(Vector3::from(exported.origin.xyz.0), link.origin);
-            assert_eq!((exported.limit.lower, exported.limit.upper), (limits.angle_min, limits.angle_max));
-        }
-    }
-
-    #[test]
-    fn urdf_links_are_one_tree_rooted_at_the_right_foot() {
-        let robot = read_back(&mechanism());
-        let is_child = |name: &str| robot.joints.iter().any(|joint| joint.child.link == name);
-        let roots: Vec<_> = robot.links.iter().map(|link| &link.name).filter(|name| !is_child(name)).collect();
-        assert_eq!(roots, ["right_foot"]);
-        let is_link = |name: &str| robot.links.iter().any(|link| link.name == name);
-        assert!(robot.joints.iter().all(|joint| is_link(&joint.parent.link) && is_link(&joint.child.link)));
-    }
-
     #[test]
     fn box_of_a_link_has_its_mass_and_moments() {
         // a uniform brick of 2 kg and sides 0.1, 0.2, 0.3 m
         let moments = [0.04 + 0.09, 0.01 + 0.09, 0.01 + 0.04].map(|squares| 2.0 / 12.0 * squares);
         let brick = Body { mass: 2.0, com: Vector3::zeros(), inertia: moments.into(), ..Body::NONE };
-        let Geometry::Box { size } = equivalent_box(&brick) else { panic!("not a box") };
-        assert!((Vector3::from(size.0) - Vector3::new(0.1, 0.2, 0.3)).norm() < 1e-12, "{size:?}");
+        let size = equivalent_sides(&brick);
+        assert!((size - Vector3::new(0.1, 0.2, 0.3)).norm() < 1e-12, "{size:?}");
     }
 
     #[test]
     fn urdf_foot_boxes_lie_on_the_floor_at_zero_angles() {
-        let mechanism = mechanism();
+        let mechanism = Mechanism::load(format!("{}/../../config/mechanism.toml", env!("CARGO_MANIFEST_DIR")))
+            .unwrap_or_else(|errors| panic!("{errors}"));
         let bottom = |side: Side| {
-            let (centre, Geometry::Box { size }) = foot_box(&mechanism, side) else { panic!("not a box") };
-            centre.z - size.0[2] / 2.0
+            let (centre, size) = foot_box(&mechanism, side);
+            centre.z - size.z / 2.0
         };
         assert!(bottom(Side::Right).abs() < 1e-15);
         assert!((bottom(Side::Left) + mechanism.sole.ankle_height).abs() < 1e-15);

@@ -2,12 +2,49 @@
 //! number, whichever link the URDF is rooted at, whatever its links and joints are called, in whatever order and frames
 //! they stand. Its arms are held, and weigh on the trunk.
 
+mod support;
+
 use config::Config;
 use interchange::import::{Imported, NamedText, import};
-use interchange::urdf::urdf;
+use interchange::urdf::urdf_text;
 use model::{Joint, Mechanism};
 use nalgebra::{Rotation3, Vector3};
-use urdf_rs::{JointType, Pose, Robot, Vec3};
+
+use support::xml::TestElement;
+
+#[test]
+fn urdf_robot_has_the_mass_of_the_mechanism() {
+    let robot = urdf(&mechanism());
+    let mass: f64 = robot.all("link").map(|link| link.child("inertial").child("mass").number("value")).sum();
+    assert!((mass - 73.031).abs() < 1e-12, "{mass}");
+}
+
+#[test]
+fn urdf_joints_have_the_axes_and_limits_of_the_mechanism() {
+    let mechanism = mechanism();
+    let robot = urdf(&mechanism);
+    assert_eq!((robot.all("link").count(), robot.all("joint").count()), (19, 18));
+    for exported in robot.all("joint") {
+        let joint = Joint::from_name(exported.get("name")).expect("a joint of the mechanism");
+        let link = &mechanism.links[joint];
+        let limits = link.limits.expect("powered");
+        assert_eq!(exported.child("axis").vector("xyz"), *link.axis);
+        assert_eq!(exported.child("origin").vector("xyz"), link.origin);
+        let limit = exported.child("limit");
+        assert_eq!((limit.number("lower"), limit.number("upper")), (limits.angle_min, limits.angle_max));
+    }
+}
+
+#[test]
+fn urdf_links_are_one_tree_rooted_at_the_right_foot() {
+    let robot = urdf(&mechanism());
+    let is_child = |name: &str| robot.all("joint").any(|joint| joint.child("child").get("link") == name);
+    let roots: Vec<_> = robot.all("link").map(|link| link.get("name")).filter(|name| !is_child(name)).collect();
+    assert_eq!(roots, ["right_foot"]);
+    let is_link = |name: &str| robot.all("link").any(|link| link.get("name") == name);
+    let ends = |joint: &TestElement| ["parent", "child"].iter().all(|end| is_link(joint.child(end).get("link")));
+    assert!(robot.all("joint").all(ends));
+}
 
 #[test]
 fn exported_urdf_imports_to_the_same_mechanism() {
@@ -19,7 +56,7 @@ fn exported_urdf_imports_to_the_same_mechanism() {
 
 #[test]
 fn exported_urdf_needs_no_map_at_all() {
-    let imported = import(NamedText { text: &text(&urdf(&mechanism())), file: "robot.urdf" }, None);
+    let imported = import(NamedText { text: &urdf(&mechanism()).text(), file: "robot.urdf" }, None);
     let imported = imported.unwrap_or_else(|error| panic!("{error}"));
     let file: toml::Table = imported.text.parse().unwrap();
     let ours = mechanism().sole;
@@ -31,7 +68,7 @@ fn exported_urdf_needs_no_map_at_all() {
 
 #[test]
 fn printed_map_imports_to_the_same_text() {
-    let urdf = text(&urdf(&mechanism()));
+    let urdf = urdf(&mechanism()).text();
     let urdf = NamedText { text: &urdf, file: "robot.urdf" };
     let (first, map) = (map(), "map.toml");
     let imported = import(urdf, Some(NamedText { text: &first, file: map })).unwrap_or_else(|error| panic!("{error}"));
@@ -51,23 +88,32 @@ fn urdf_with_other_names_order_and_frames_imports_to_the_same_mechanism() {
     let mut robot = at_pelvis(&ours);
     // a shank whose frame is turned any way, and a joint told from its other end
     turn_link(&mut robot, "left_knee", "left_ankle_pitch", [0.3, -0.2, 0.5]);
-    let limit = &mut joint(&mut robot, "left_hip_yaw").limit;
-    (limit.lower, limit.upper) = (-limit.upper, -limit.lower);
-    joint(&mut robot, "left_hip_yaw").axis.xyz = Vec3([0.0, 0.0, -1.0]);
+    let limit = joint(&mut robot, "left_hip_yaw").child_mut("limit");
+    let (lower, upper) = (limit.number("lower"), limit.number("upper"));
+    limit.set("lower", -upper);
+    limit.set("upper", -lower);
+    joint(&mut robot, "left_hip_yaw").child_mut("axis").set("xyz", "0 0 -1");
     // foreign names, the wrong way round
-    for link in &mut robot.links {
-        link.name = format!("Glied {}", link.name);
-    }
     let foreign = |name: &str| format!("J\u{301}.\"{}\\", name.len() * 100 + usize::from(name.as_bytes()[0]));
     let foreign =
         |name: &str| format!("{}{}", foreign(name), name.to_uppercase().replace("RIGHT", "A").replace("LEFT", "B"));
-    for joint in &mut robot.joints {
-        joint.name = foreign(&joint.name);
-        joint.parent.link = format!("Glied {}", joint.parent.link);
-        joint.child.link = format!("Glied {}", joint.child.link);
+    let rename = |element: &mut TestElement, key: &str, new: &dyn Fn(&str) -> String| {
+        let name = new(element.get(key));
+        element.set(key, name);
+    };
+    let of_link = |name: &str| format!("Glied {name}");
+    for element in &mut robot.children {
+        match element.name.as_str() {
+            "link" => rename(element, "name", &of_link),
+            "joint" => {
+                rename(element, "name", &foreign);
+                rename(element.child_mut("parent"), "link", &of_link);
+                rename(element.child_mut("child"), "link", &of_link);
+            }
+            _ => {}
+        }
     }
-    robot.links.reverse();
-    robot.joints.reverse();
+    robot.children.reverse();
     let mut map = map();
     for joint in Joint::ALL.into_iter().filter(|joint| joint.is_powered()) {
         let toml = foreign(joint.name()).replace('\\', "\\\\").replace('"', "\\\"");
@@ -82,21 +128,23 @@ fn fixed_link_of_a_urdf_is_combined_with_its_parent() {
     let ours = mechanism();
     let mut robot = urdf(&ours);
     // Half of the pelvis' mass as two parts ahead and behind leaves mass and centre, and adds m·r² about y and z.
-    let split = |robot: &mut Robot, place: usize, offset: f64| {
-        let pelvis = robot.links.iter().position(|link| link.name == "pelvis").unwrap();
-        let mut part = robot.links[pelvis].clone();
-        part.name = format!("part {place}");
-        part.inertial.mass.value = 8.164 / 4.0;
-        part.inertial.inertia = Default::default();
-        let mut screwed = robot.joints[0].clone();
-        screwed.name = format!("screws {place}");
-        screwed.joint_type = JointType::Fixed;
-        screwed.origin = Pose { xyz: Vec3([offset, 0.0, 0.0]), rpy: Vec3([0.0; 3]) };
-        screwed.parent.link = "pelvis".into();
-        screwed.child.link.clone_from(&part.name);
-        robot.links[pelvis].inertial.mass.value -= part.inertial.mass.value;
-        robot.links.push(part);
-        robot.joints.push(screwed);
+    let split = |robot: &mut TestElement, place: usize, offset: f64| {
+        let share = 8.164 / 4.0;
+        let mut part = link(robot, "pelvis").clone();
+        part.set("name", format!("part {place}"));
+        mass(&mut part).set("value", share);
+        for (_, moment) in &mut part.child_mut("inertial").child_mut("inertia").attributes {
+            *moment = "0".to_string();
+        }
+        let mut screwed = robot.all("joint").next().unwrap().clone();
+        screwed.set("name", format!("screws {place}"));
+        screwed.set("type", "fixed");
+        screwed.child_mut("origin").set_vector("xyz", Vector3::new(offset, 0.0, 0.0));
+        screwed.child_mut("parent").set("link", "pelvis");
+        screwed.child_mut("child").set("link", part.get("name"));
+        let pelvis = mass(link(robot, "pelvis"));
+        pelvis.set("value", pelvis.number("value") - share);
+        robot.children.extend([part, screwed]);
     };
     split(&mut robot, 1, 0.1);
     split(&mut robot, 2, -0.1);
@@ -116,7 +164,7 @@ fn fixed_link_of_a_urdf_is_combined_with_its_parent() {
 fn urdf_that_is_no_such_biped_is_refused_with_joint_and_remedy() {
     let good = urdf(&mechanism());
     let whole = map();
-    let with = |change: &dyn Fn(&mut Robot)| {
+    let with = |change: &dyn Fn(&mut TestElement)| {
         let mut robot = good.clone();
         change(&mut robot);
         read(&robot, &whole).map(|_| ()).expect_err("not our robot")
@@ -137,24 +185,24 @@ fn urdf_that_is_no_such_biped_is_refused_with_joint_and_remedy() {
         .replace('?', "left_hip_pitch");
     let error = read(&good, &exchanged).map(|_| ()).expect_err("exchanged");
     says(&error, &["joint left_hip_pitch as left_knee: it is the left_hip_pitch", "joint left_knee as left_hip_pitch"]);
-    let error = with(&|robot| joint(robot, "left_hip_yaw").axis.xyz = Vec3([0.0, 0.2, 0.8]));
+    let error = with(&|robot| joint(robot, "left_hip_yaw").child_mut("axis").set("xyz", "0 0.2 0.8"));
     says(&error, &["joints right_hip_yaw and left_hip_yaw", "14.04°", "may by 2°"]);
-    let error = with(&|robot| joint(robot, "left_knee").axis.xyz = Vec3([1.0, 0.0, 0.0]));
+    let error = with(&|robot| joint(robot, "left_knee").child_mut("axis").set("xyz", "1 0 0"));
     says(&error, &["left leg, from the pelvis down left_hip_roll", "the fourth must be the knee"]);
-    let error = with(&|robot| joint(robot, "left_knee").origin.xyz.0[2] -= 0.03);
+    let error = with(&|robot| lower(joint(robot, "left_knee"), 0.03));
     says(&error, &["joints right_knee and left_knee", "30.0 mm"]);
-    let error = with(&|robot| link(robot, "right_shank").inertial.mass.value = 0.0);
+    let error = with(&|robot| mass(link(robot, "right_shank")).set("value", 0.0));
     says(&error, &["the right shank weighs nothing"]);
-    let error = with(&|robot| link(robot, "trunk").inertial.mass.value = -1.0);
+    let error = with(&|robot| mass(link(robot, "trunk")).set("value", -1.0));
     says(&error, &["link trunk: <mass> value = \"-1\": must be a number from 0"]);
-    let error = with(&|robot| joint(robot, "left_knee").limit.lower = 3.0);
+    let error = with(&|robot| joint(robot, "left_knee").child_mut("limit").set("lower", 3.0));
     says(&error, &["joint left_knee as left_knee", "lower = \"3\"", "lower must be less than upper"]);
-    let error = with(&|robot| joint(robot, "left_knee").parent.link = "nowhere".into());
+    let error = with(&|robot| joint(robot, "left_knee").child_mut("parent").set("link", "nowhere"));
     says(&error, &["joint left_knee: <parent> link = \"nowhere\": must be one of the robot's links"]);
-    let error = with(&|robot| joint(robot, "left_knee").joint_type = JointType::Fixed);
+    let error = with(&|robot| joint(robot, "left_knee").set("type", "fixed"));
     says(&error, &["left_knee\": must be a joint that turns", "this one is fixed"]);
     let mut robot = good.clone();
-    joint(&mut robot, "left_ankle_roll").joint_type = JointType::Fixed;
+    joint(&mut robot, "left_ankle_roll").set("type", "fixed");
     let sole = &whole[..whole.find("[joint.").unwrap()];
     let error = read(&robot, sole).map(|_| ()).expect_err("eleven joints");
     says(&error, &["exactly six joints", "found 11 joints from foot to foot", "right_hip_yaw (about z)"]);
@@ -163,8 +211,9 @@ fn urdf_that_is_no_such_biped_is_refused_with_joint_and_remedy() {
 #[test]
 fn differences_of_both_sides_are_taken_as_their_mean_and_told() {
     let mut robot = urdf(&mechanism());
-    link(&mut robot, "left_thigh").inertial.mass.value += 1.0;
-    joint(&mut robot, "left_knee").origin.xyz.0[2] -= 0.012;
+    let thigh = mass(link(&mut robot, "left_thigh"));
+    thigh.set("value", thigh.number("value") + 1.0);
+    lower(joint(&mut robot, "left_knee"), 0.012);
     let imported = read(&robot, &map()).unwrap_or_else(|error| panic!("{error}"));
     let told = |words: &str| assert!(imported.lines.iter().any(|line| line.contains(words)), "{:?}", imported.lines);
     told("the mass of the body below the hip_pitch differs by 9.2 %");
@@ -223,13 +272,13 @@ fn mechanism() -> Mechanism {
     Mechanism::from_toml(&config_text(), "mechanism.toml").unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn text(robot: &Robot) -> String {
-    urdf_rs::write_to_string(robot).expect("a robot can be written")
+/// The mechanism as URDF.
+fn urdf(mechanism: &Mechanism) -> TestElement {
+    TestElement::parse(&urdf_text(mechanism).expect("our robot can be written"))
 }
 
-fn read(robot: &Robot, map: &str) -> Result<Imported, String> {
-    let text = text(robot);
-    import(NamedText { text: &text, file: "robot.urdf" }, Some(NamedText { text: map, file: "map.toml" }))
+fn read(robot: &TestElement, map: &str) -> Result<Imported, String> {
+    import(NamedText { text: &robot.text(), file: "robot.urdf" }, Some(NamedText { text: map, file: "map.toml" }))
         .map_err(|error| error.0)
 }
 
@@ -248,48 +297,59 @@ fn map() -> String {
     text
 }
 
-fn joint<'r>(robot: &'r mut Robot, name: &str) -> &'r mut urdf_rs::Joint {
-    robot.joints.iter_mut().find(|joint| joint.name == name).unwrap()
+fn joint<'r>(robot: &'r mut TestElement, name: &str) -> &'r mut TestElement {
+    robot.named_mut("joint", name)
 }
 
-fn link<'r>(robot: &'r mut Robot, name: &str) -> &'r mut urdf_rs::Link {
-    robot.links.iter_mut().find(|link| link.name == name).unwrap()
+fn link<'r>(robot: &'r mut TestElement, name: &str) -> &'r mut TestElement {
+    robot.named_mut("link", name)
+}
+
+fn mass(link: &mut TestElement) -> &mut TestElement {
+    link.child_mut("inertial").child_mut("mass")
+}
+
+/// Moves a joint down by a distance (m).
+fn lower(joint: &mut TestElement, distance: f64) {
+    let origin = joint.child_mut("origin");
+    origin.set_vector("xyz", origin.vector("xyz") - distance * Vector3::z());
 }
 
 /// Our robot with the right leg hanging on the pelvis: every link between is told from its upper joint.
-fn at_pelvis(ours: &Mechanism) -> Robot {
+fn at_pelvis(ours: &Mechanism) -> TestElement {
     let mut robot = urdf(ours);
     let leg = &Joint::ALL[Joint::RightAnkleRoll.index()..=Joint::RightHipRoll.index()];
     for (place, reversed) in leg.iter().enumerate() {
         let above = leg.get(place + 1).map_or(Vector3::zeros(), |above| ours.links[*above].origin);
         let reversed_joint = joint(&mut robot, reversed.name());
-        let up = Vector3::from(reversed_joint.origin.xyz.0);
-        std::mem::swap(&mut reversed_joint.parent.link, &mut reversed_joint.child.link);
-        reversed_joint.axis.xyz = Vec3((-Vector3::from(reversed_joint.axis.xyz.0)).into());
-        reversed_joint.origin.xyz = Vec3((-above).into());
-        let below = reversed_joint.child.link.clone();
-        let com = &mut link(&mut robot, &below).inertial.origin.xyz;
-        *com = Vec3((Vector3::from(com.0) - up).into());
+        let up = reversed_joint.child("origin").vector("xyz");
+        let [parent, child] = ["parent", "child"].map(|end| reversed_joint.child(end).get("link").to_string());
+        reversed_joint.child_mut("parent").set("link", child);
+        reversed_joint.child_mut("child").set("link", &parent);
+        let axis = reversed_joint.child_mut("axis");
+        axis.set_vector("xyz", -axis.vector("xyz"));
+        reversed_joint.child_mut("origin").set_vector("xyz", -above);
+        let com = link(&mut robot, &parent).child_mut("inertial").child_mut("origin");
+        com.set_vector("xyz", com.vector("xyz") - up);
     }
     robot
 }
 
 /// Turns the frame of the link that a joint carries, and tells all that is mounted on it in the new one.
-fn turn_link(robot: &mut Robot, carrier: &str, carried: &str, rpy: [f64; 3]) {
+fn turn_link(robot: &mut TestElement, carrier: &str, carried: &str, rpy: [f64; 3]) {
     let turn = Rotation3::from_euler_angles(rpy[0], rpy[1], rpy[2]);
-    let back = |vector: &mut Vec3| *vector = Vec3((turn.inverse() * Vector3::from(vector.0)).into());
-    let turned_back = |angles: &mut Vec3| {
+    let back = |element: &mut TestElement| {
+        element.set_vector("xyz", turn.inverse() * element.vector("xyz"));
+    };
+    let pose_back = |origin: &mut TestElement| {
+        back(origin);
         let (roll, pitch, yaw) = turn.inverse().euler_angles();
-        *angles = Vec3([roll, pitch, yaw]);
+        origin.set_vector("rpy", Vector3::new(roll, pitch, yaw));
     };
     let carrier = joint(robot, carrier);
-    carrier.origin.rpy = Vec3(rpy);
-    back(&mut carrier.axis.xyz);
-    let name = carrier.child.link.clone();
-    let next = joint(robot, carried);
-    back(&mut next.origin.xyz);
-    turned_back(&mut next.origin.rpy);
-    let body = &mut link(robot, &name).inertial;
-    back(&mut body.origin.xyz);
-    turned_back(&mut body.origin.rpy);
+    carrier.child_mut("origin").set_vector("rpy", rpy.into());
+    back(carrier.child_mut("axis"));
+    let name = carrier.child("child").get("link").to_string();
+    pose_back(joint(robot, carried).child_mut("origin"));
+    pose_back(link(robot, &name).child_mut("inertial").child_mut("origin"));
 }

@@ -7,8 +7,7 @@ use std::fmt::Write;
 
 use config::Config;
 use interchange::import::{JointRole, LegRole, NamedText, import};
-use model::Mechanism;
-use model::Side;
+use model::{Mechanism, Side};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use support::robots::{Allowed, is_symmetric, same_robot};

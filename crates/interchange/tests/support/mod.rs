@@ -12,6 +12,7 @@ use quick_xml::events::Event;
 pub(crate) mod robots;
 pub(crate) mod variants;
 pub(crate) mod walker;
+pub(crate) mod xml;
 
 /// A joint of either format.
 #[derive(Clone, Debug)]
