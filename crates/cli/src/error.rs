@@ -9,7 +9,7 @@ use serde::Serialize;
 
 /// Why a command could not do what it was asked to.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub(crate) struct CliError {
+pub struct CliError {
     /// Whether the command line or an input file is wrong.
     bad_input: bool,
     /// What the user reads.

@@ -3,8 +3,10 @@
 //! One command per file in `command`: its options, and what it prints. The crates below do the work. `process` runs
 //! other `halfstep` processes, `error` and `status` are how a command ends, `output` prints and writes.
 
+pub mod built_in_robots;
 mod command;
 mod error;
+pub mod imported_robot;
 mod output;
 mod process;
 mod progress;
@@ -16,7 +18,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use tracing_subscriber::EnvFilter;
 
-use crate::error::CliError;
+pub use crate::error::CliError;
 
 /// Runs the command line: the whole program, which `main` calls.
 ///

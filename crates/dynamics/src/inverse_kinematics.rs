@@ -29,17 +29,7 @@ pub struct Unreachable {
 /// # Errors
 /// [`Unreachable`] leaves the closest angles found.
 pub fn solve_leg(tree: &Tree, leg: Side, target: &Isometry3<f64>, angles: &mut JointVector) -> Result<(), Unreachable> {
-    solve_leg_from(Kinematics::fixed_base(tree, angles), tree, leg, target, angles)
-}
-
-/// As [`solve_leg`], with the links that carry the leg placed already.
-pub(crate) fn solve_leg_from(
-    mut kinematics: Kinematics,
-    tree: &Tree,
-    leg: Side,
-    target: &Isometry3<f64>,
-    angles: &mut JointVector,
-) -> Result<(), Unreachable> {
+    let mut kinematics = Kinematics::fixed_base(tree, angles);
     let mut residual = f64::INFINITY;
     let joints = tree.leg(leg);
     for _ in 0..ITERATIONS_MAX {

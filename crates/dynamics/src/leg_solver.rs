@@ -3,22 +3,27 @@
 use model::{JointVector, Mechanism, Side};
 use nalgebra::Isometry3;
 
-use crate::inverse_kinematics::{Unreachable, solve_leg_from};
+use crate::inverse_kinematics::Unreachable;
+use crate::leg_chain::LegChain;
 use crate::leg_geometry::LegGeometry;
-use crate::{Kinematics, Tree};
 
 /// Finds the six angles of a leg between pelvis and foot. Created once per mechanism, read-only.
 #[derive(Clone, Copy, Debug)]
 pub struct LegSolver {
     /// The right and the left leg; `None` if one of them has another structure.
     closed_forms: Option<[LegGeometry; 2]>,
+    /// The right and the left leg, of any structure.
+    chains: [LegChain; 2],
 }
 
 impl LegSolver {
     /// A solver for the legs of a mechanism.
     pub fn new(mechanism: &Mechanism) -> Self {
         let [right, left] = Side::BOTH.map(|side| LegGeometry::new(mechanism, side));
-        Self { closed_forms: right.zip(left).map(|(right, left)| [right, left]) }
+        Self {
+            closed_forms: right.zip(left).map(|(right, left)| [right, left]),
+            chains: Side::BOTH.map(|side| LegChain::new(mechanism, side)),
+        }
     }
 
     /// Whether the legs are solved in closed form. For tests; the solution is the same by iteration.
@@ -42,7 +47,6 @@ impl LegSolver {
     #[inline]
     pub fn solve(
         &self,
-        tree: &Tree,
         leg: Side,
         pelvis_to_support: &Isometry3<f64>,
         foot_to_support: &Isometry3<f64>,
@@ -51,12 +55,10 @@ impl LegSolver {
         if let Some(closed_forms) = &self.closed_forms {
             return closed_forms[leg.index()].solve(pelvis_to_support, foot_to_support, angles);
         }
-        let (base, base_to_support, target) = match leg {
-            Side::Right => (Mechanism::RIGHT_FOOT, foot_to_support, pelvis_to_support),
-            Side::Left => (tree.pelvis(), pelvis_to_support, foot_to_support),
-        };
-        let mut kinematics = Kinematics::default();
-        kinematics.place(base, base_to_support);
-        solve_leg_from(kinematics, tree, leg, target, angles)
+        let [right, left] = &self.chains;
+        match leg {
+            Side::Right => right.solve(foot_to_support, pelvis_to_support, angles),
+            Side::Left => left.solve(pelvis_to_support, foot_to_support, angles),
+        }
     }
 }

@@ -14,6 +14,7 @@ mod energy;
 mod inverse_kinematics;
 mod kinematics;
 mod lanes;
+mod leg_chain;
 mod leg_geometry;
 mod leg_solver;
 mod mass_matrix;

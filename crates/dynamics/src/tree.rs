@@ -79,7 +79,7 @@ impl Tree {
 }
 
 impl JointAxis {
-    fn new(axis: Unit<Vector3<f64>>) -> Self {
+    pub(crate) fn new(axis: Unit<Vector3<f64>>) -> Self {
         if axis == Vector3::x_axis() {
             JointAxis::X
         } else if axis == Vector3::y_axis() {

@@ -54,7 +54,7 @@ fn random_postures_come_out(mechanism: &Mechanism, guess: impl Fn(&JointVector) 
         let poses = feet_and_pelvis(&tree, &expected);
         let mut angles = guess(&expected);
         for side in Side::BOTH {
-            let reached = solver.solve(&tree, side, &poses[2], &poses[side.index()], &mut angles);
+            let reached = solver.solve(side, &poses[2], &poses[side.index()], &mut angles);
             assert_eq!(reached, Ok(()), "posture {round}, {side:?}: {expected:?}");
         }
         for (pose, found) in poses.iter().zip(feet_and_pelvis(&tree, &angles)) {
@@ -108,7 +108,7 @@ fn legs_of_another_structure_are_solved_by_iteration() {
         let poses = feet_and_pelvis(&tree, &expected);
         let mut angles = expected.zip_with(&posture(&other, &mut random), |expected, other| expected + 0.02 * other);
         for side in Side::BOTH {
-            solver.solve(&tree, side, &poses[2], &poses[side.index()], &mut angles).expect("within reach");
+            solver.solve(side, &poses[2], &poses[side.index()], &mut angles).expect("within reach");
             for joint in tree.leg(side) {
                 assert!((angles[joint] - expected[joint]).abs() < 1e-9, "{joint:?} of {expected:?}");
             }
@@ -145,7 +145,7 @@ fn closed_form_and_newtons_leg_angles_agree() {
         solve_leg(&tree, Side::Right, &poses[2], &mut newton).expect("within reach");
         solve_leg(&tree, Side::Left, &poses[1], &mut newton).expect("within reach");
         for side in Side::BOTH {
-            solver.solve(&tree, side, &poses[2], &poses[side.index()], &mut closed_form).expect("within reach");
+            solver.solve(side, &poses[2], &poses[side.index()], &mut closed_form).expect("within reach");
         }
         for joint in Joint::ALL {
             let (one, other) = (closed_form[joint], newton[joint]);
@@ -163,13 +163,13 @@ fn squat(mechanism: &Mechanism, height: f64) -> [Isometry3<f64>; 3] {
 #[test]
 fn knees_bend_backward_and_continuously_from_stretched_to_folded() {
     let mechanism = mechanism("mechanism.toml");
-    let (tree, solver) = (Tree::new(&mechanism), LegSolver::new(&mechanism));
+    let solver = LegSolver::new(&mechanism);
     let mut before = [0.0; 2];
     for millimetres in (12..=856).rev() {
         let poses = squat(&mechanism, f64::from(millimetres) * 1e-3);
         let mut angles = JointVector::ZERO;
         for side in Side::BOTH {
-            solver.solve(&tree, side, &poses[2], &poses[side.index()], &mut angles).expect("within reach");
+            solver.solve(side, &poses[2], &poses[side.index()], &mut angles).expect("within reach");
             let bend = if side == Side::Right { -angles[knee(side)] } else { angles[knee(side)] };
             assert!(millimetres == 856 || bend > before[side.index()], "{side:?} at {millimetres} mm: {bend} rad");
             before[side.index()] = bend;
@@ -190,7 +190,7 @@ fn a_leg_that_is_too_short_points_at_its_hip_and_the_missing_distance_is_reporte
             let poses = squat(&mechanism, height);
             // The other leg stands at an arbitrary height.
             let mut angles = JointVector::ZERO;
-            let reached = solver.solve(&tree, side, &poses[2], &poses[side.index()], &mut angles);
+            let reached = solver.solve(side, &poses[2], &poses[side.index()], &mut angles);
             let residual = reached.expect_err("out of reach").residual;
             assert!((residual - missing).abs() < 1e-12, "{side:?} at {height} m: {residual} m are missing");
             assert!(angles.is_finite(), "{side:?} at {height} m: {angles:?}");
@@ -209,7 +209,7 @@ fn a_leg_that_is_too_short_points_at_its_hip_and_the_missing_distance_is_reporte
 #[test]
 fn no_pose_leads_to_a_leg_angle_that_is_nan() {
     let mechanism = mechanism("mechanism.toml");
-    let (tree, solver) = (Tree::new(&mechanism), LegSolver::new(&mechanism));
+    let solver = LegSolver::new(&mechanism);
     // Hip level with the ankle, straight ahead and behind; pelvis turned by right angles every way.
     for ahead in [-2.0, -0.5, -0.0, 0.0, 0.5, 2.0] {
         for quarters in 0..64_u8 {
@@ -220,7 +220,7 @@ fn no_pose_leads_to_a_leg_angle_that_is_nan() {
             let feet = [Isometry3::identity(), Isometry3::from(ankle + turn * Vector3::y() * 0.19)];
             for side in Side::BOTH {
                 let mut angles = JointVector::ZERO;
-                let reached = solver.solve(&tree, side, &pelvis, &feet[side.index()], &mut angles);
+                let reached = solver.solve(side, &pelvis, &feet[side.index()], &mut angles);
                 assert!(angles.is_finite(), "{ahead} m ahead, {quarters} quarters, {side:?}: {angles:?}");
                 assert_eq!(reached.is_ok(), ahead.abs() == 0.5);
             }
@@ -229,7 +229,7 @@ fn no_pose_leads_to_a_leg_angle_that_is_nan() {
 
     let nowhere = Isometry3::translation(f64::NAN, 0.0, 0.0);
     let mut angles = JointVector::unit(Joint::RightKnee);
-    let reached = solver.solve(&tree, Side::Right, &nowhere, &Isometry3::identity(), &mut angles);
+    let reached = solver.solve(Side::Right, &nowhere, &Isometry3::identity(), &mut angles);
     assert_eq!(reached.expect_err("no pose").residual, f64::INFINITY);
     assert_eq!(angles, JointVector::unit(Joint::RightKnee));
 }

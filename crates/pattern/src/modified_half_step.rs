@@ -158,8 +158,8 @@ mod tests {
 
                     let foot = kinematics.link_to_world(mechanism.foot(Side::Left));
                     let mut solved = walk.table().angles_at(progress);
-                    model.legs.solve(&model.tree, Side::Right, &pelvis, &Isometry3::identity(), &mut solved).unwrap();
-                    model.legs.solve(&model.tree, Side::Left, &pelvis, &foot, &mut solved).unwrap();
+                    model.legs.solve(Side::Right, &pelvis, &Isometry3::identity(), &mut solved).unwrap();
+                    model.legs.solve(Side::Left, &pelvis, &foot, &mut solved).unwrap();
                     assert!((solved - angles).max_abs() < 1e-9, "{at}: {}", (solved - angles).max_abs());
                 }
                 walk.advance(walk.table().duration);

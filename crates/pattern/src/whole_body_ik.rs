@@ -83,8 +83,8 @@ impl WholeBodyIk {
         let mut is_near = false;
         for _ in 0..ROUNDS_MAX {
             let pelvis = Isometry3::from_parts(Translation3::new(hip.x, hip.y, hip_height), heading);
-            legs.solve(tree, Side::Right, &pelvis, &Isometry3::identity(), &mut angles)?;
-            legs.solve(tree, Side::Left, &pelvis, &foot, &mut angles)?;
+            legs.solve(Side::Right, &pelvis, &Isometry3::identity(), &mut angles)?;
+            legs.solve(Side::Left, &pelvis, &foot, &mut angles)?;
             if is_near {
                 break;
             }

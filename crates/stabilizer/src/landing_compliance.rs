@@ -87,7 +87,7 @@ impl LandingCompliance {
         let mut angles = *planned;
         for (side, lift) in Side::BOTH.into_iter().zip(self.lifts) {
             let foot = raised(&feet[side.index()], lift);
-            self.legs.solve(tree, side, &pelvis, &foot, &mut angles).ok()?;
+            self.legs.solve(side, &pelvis, &foot, &mut angles).ok()?;
         }
         Some(angles - *planned)
     }

@@ -95,7 +95,8 @@ const TRIPS_AT_PACE: u64 = 500;
 const FLAT_OUT: u64 = 20_000;
 
 impl BenchArgs {
-    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
+    pub(super) fn run(mut self, json: bool) -> Result<Status, CliError> {
+        self.config.resolve()?;
         let report = match &self.what {
             What::Answer { instance, core, priority } => {
                 let scheduling = Scheduling { priority: *priority, ..awake_on(*core) };

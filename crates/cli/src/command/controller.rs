@@ -44,7 +44,8 @@ const BRIDGE_BELOW: u8 = 1;
 const ADMISSION_BELOW: u8 = 2;
 
 impl ControllerArgs {
-    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
+    pub(super) fn run(mut self, json: bool) -> Result<Status, CliError> {
+        self.config.resolve()?;
         self.child.bind()?;
         let interrupt = Interrupt::listen()?;
 

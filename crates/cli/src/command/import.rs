@@ -3,23 +3,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use config::Config;
-use interchange::import::{Imported, NamedText, import, print_map};
-use interchange::scaled_parameters::{controller_text, plant_text};
-use model::Mechanism;
+use interchange::import::{NamedText, print_map};
 use serde::Serialize;
-use synthesis::{FittedHalfStep, fit_half_step};
 
 use crate::error::CliError;
+use crate::imported_robot::{ImportedRobot, URDF};
 use crate::output::{print_json, print_line, quoted, write_files};
 use crate::status::Status;
-
-/// Parameters of the paper's robot, from which those of others are scaled.
-const CONTROLLER: &str = include_str!("../../../../config/controller.toml");
-const PLANT: &str = include_str!("../../../../config/plant.toml");
-const REALTIME: &str = include_str!("../../../../config/realtime.toml");
-/// The URDF's name in the folder.
-const URDF: &str = "robot.urdf";
 
 /// Import a biped from its URDF into a configuration folder from which it walks
 #[derive(Clone, Debug, clap::Args)]
@@ -71,26 +61,16 @@ impl ImportArgs {
         }
         let Some(out) = self.out else { return Err(CliError::bad_input("--out must name a folder")) };
 
-        let imported = import(NamedText { text: &urdf, file: URDF }, map_text)
-            .map_err(|error| CliError::bad_input(error.to_string().replace(URDF, &urdf_file)))?;
-        let mechanism_file = out.join("mechanism.toml").display().to_string();
-        let mechanism = Mechanism::from_toml(&imported.text, &mechanism_file).map_err(CliError::bad_input)?;
-        let fitted = fit_half_step(&mechanism).map_err(CliError::bad_input)?;
-        let files = [
-            ("mechanism.toml", imported.text.clone()),
-            ("nominal_half_step.csv", fitted.synthesis.table.to_csv().map_err(CliError::bad_input)?),
-            ("controller.toml", controller_text(CONTROLLER, &mechanism)),
-            ("plant.toml", plant_text(PLANT, &mechanism)),
-            ("realtime.toml", REALTIME.to_owned()),
-            (URDF, urdf.clone()),
-        ];
+        let robot = ImportedRobot::new(urdf_text, map_text)?;
+        let mut files = robot.files.to_vec();
+        files.push((URDF, urdf.clone()));
         if !self.force {
             keep_another(&out, &files)?;
         }
         write_files(&out, &files)?;
 
         let written = files.iter().map(|(name, _)| out.join(name)).collect();
-        let report = ImportReport::new(imported, &fitted, written, &out);
+        let report = ImportReport::new(robot, written, &out);
         if json {
             print_json(&report)?;
         } else {
@@ -124,16 +104,17 @@ fn keep_another(folder: &Path, files: &[(&str, String)]) -> Result<(), CliError>
 }
 
 impl ImportReport {
-    fn new(imported: Imported, fitted: &FittedHalfStep, written: Vec<PathBuf>, folder: &Path) -> Self {
-        let (load_share, joint) = fitted.load;
+    fn new(robot: ImportedRobot, written: Vec<PathBuf>, folder: &Path) -> Self {
+        let ImportedRobot { imported, half_step, .. } = robot;
+        let (load_share, joint) = half_step.load;
         Self {
             name: imported.name,
             mass_kg: imported.mass,
             leg_m: imported.leg,
             notes: imported.lines,
-            step_length_m: fitted.parameters.step_length,
-            half_step_s: fitted.parameters.duration,
-            zmp_residual_mm: fitted.synthesis.report.residual * 1e3,
+            step_length_m: half_step.parameters.step_length,
+            half_step_s: half_step.parameters.duration,
+            zmp_residual_mm: half_step.synthesis.report.residual * 1e3,
             load_share,
             load_joint: joint.name(),
             written,

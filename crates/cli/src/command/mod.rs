@@ -13,6 +13,7 @@ mod paper;
 mod plant;
 mod plot;
 mod replay;
+mod robots;
 mod send;
 mod stream;
 mod synthesize;
@@ -47,6 +48,7 @@ enum HalfstepCommand {
     Bench(bench::BenchArgs),
     Export(export::ExportArgs),
     Import(import::ImportArgs),
+    Robots(robots::RobotsArgs),
     Plot(plot::PlotArgs),
     Replay(replay::ReplayArgs),
 }
@@ -75,6 +77,7 @@ impl Halfstep {
             HalfstepCommand::Bench(args) => args.run(json),
             HalfstepCommand::Export(args) => args.run(json),
             HalfstepCommand::Import(args) => args.run(json),
+            HalfstepCommand::Robots(args) => args.run(json),
             HalfstepCommand::Plot(args) => args.run(json),
             HalfstepCommand::Replay(args) => args.run(json),
         }

@@ -33,7 +33,8 @@ pub(super) struct PaperArgs {
 }
 
 impl PaperArgs {
-    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
+    pub(super) fn run(mut self, json: bool) -> Result<Status, CliError> {
+        self.config.resolve()?;
         let mut errors = Errors::default();
         let files = self.config.files();
         let robot = files.robot(&mut errors);

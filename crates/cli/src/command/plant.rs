@@ -52,7 +52,8 @@ pub(super) struct PlantArgs {
 }
 
 impl PlantArgs {
-    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
+    pub(super) fn run(mut self, json: bool) -> Result<Status, CliError> {
+        self.config.resolve()?;
         self.child.bind()?;
         let interrupt = Interrupt::listen()?;
 

@@ -79,7 +79,8 @@ struct Walking {
 }
 
 impl WalkArgs {
-    pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
+    pub(super) fn run(mut self, json: bool) -> Result<Status, CliError> {
+        self.config.resolve()?;
         let interrupt = Interrupt::listen()?;
         let mut errors = Errors::default();
         let files = self.config.files();

@@ -165,10 +165,13 @@ fn last_lines(output: &Output) -> String {
 }
 
 /// The user's cache folder for this program.
-fn cache() -> Result<PathBuf, EnvironmentError> {
+///
+/// # Errors
+/// Neither HOME nor XDG_CACHE_HOME is set.
+pub fn cache() -> Result<PathBuf, EnvironmentError> {
     let own = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
     let cache = own("XDG_CACHE_HOME").or_else(|| Some(own("HOME")?.join(".cache")));
-    let no_home = "MuJoCo needs a folder for its Python environment: set HOME or XDG_CACHE_HOME";
+    let no_home = "no folder for what is kept between runs: set HOME or XDG_CACHE_HOME";
     Ok(cache.ok_or_else(|| EnvironmentError(no_home.to_owned()))?.join("halfstep"))
 }
 

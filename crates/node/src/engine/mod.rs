@@ -9,5 +9,5 @@ mod environment;
 mod external_engine;
 mod message;
 
-pub use environment::{EnvironmentError, is_installed, mujoco, python};
+pub use environment::{EnvironmentError, cache, is_installed, mujoco, python};
 pub use external_engine::{EngineError, EngineSetup, ExternalEngine};
