@@ -9,11 +9,12 @@ use std::time::Duration;
 use crossbeam::channel::{Receiver, RecvTimeoutError, Sender, bounded};
 
 use interchange::mjcf::mjcf_text;
-use model::{Joint, Mechanism};
+use model::{Joint, Mechanism, UrdfSource};
 use plant::{Disturbances, Plant, PlantParameters, RobotState, with_mass_error};
 use serde::{Deserialize, Serialize};
 
 use super::message::{SETPOINT_LEN, STATE_LEN, decode_state, encode_setpoint};
+use super::urdf_setup::UrdfSetup;
 
 /// Version of the protocol between this program and engines.
 const PROTOCOL: u32 = 1;
@@ -22,8 +23,8 @@ const PROTOCOL: u32 = 1;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EngineSetup {
     protocol: u32,
-    /// Robot and floor as a complete MJCF model.
-    mjcf: String,
+    #[serde(flatten)]
+    robot: RobotModel,
     period_s: f64,
     steps_per_period: u32,
     /// Names of the powered joints, in the order of the other lists.
@@ -36,6 +37,16 @@ pub struct EngineSetup {
     back_emf: Vec<f64>,
     start: InitialState,
     pushes: Vec<ScheduledPush>,
+}
+
+/// How the robot is described; the variant's fields are keys of the message.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+enum RobotModel {
+    /// Mechanism and floor as a complete MJCF model.
+    Mechanism { mjcf: String },
+    /// The URDF that the mechanism was imported from.
+    Urdf { urdf: String, urdf_setup: Box<UrdfSetup> },
 }
 
 /// State of the robot at the start; angles and rates are the joints', the rest are the right sole's in world axes.
@@ -152,7 +163,7 @@ impl EngineSetup {
         let orientation = start.sole_to_world.rotation;
         Ok(Self {
             protocol: PROTOCOL,
-            mjcf: mjcf_text(&built, parameters, period),
+            robot: RobotModel::Mechanism { mjcf: mjcf_text(&built, parameters, period) },
             period_s: period,
             steps_per_period: parameters.steps_per_period,
             joints: motors().map(|(joint, _)| joint.name()).collect(),
@@ -178,6 +189,20 @@ impl EngineSetup {
                 })
                 .collect(),
         })
+    }
+
+    /// The same run with the robot that the text of a URDF describes, from which the mechanism was imported.
+    #[must_use]
+    pub fn with_urdf(
+        self,
+        urdf: String,
+        source: &UrdfSource,
+        mechanism: &Mechanism,
+        parameters: &PlantParameters,
+        seed: u64,
+    ) -> Self {
+        let urdf_setup = Box::new(UrdfSetup::new(mechanism, source, parameters, seed));
+        Self { robot: RobotModel::Urdf { urdf, urdf_setup }, ..self }
     }
 }
 

@@ -8,6 +8,7 @@
 mod environment;
 mod external_engine;
 mod message;
+mod urdf_setup;
 
 pub use environment::{EnvironmentError, is_installed, mujoco, python};
 pub use external_engine::{EngineError, EngineSetup, ExternalEngine};

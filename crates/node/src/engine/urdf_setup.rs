@@ -1,0 +1,159 @@
+//! How an external engine makes an imported robot of its URDF: which joints are driven, which are held, where the soles
+//! are. `tools/mujoco_plant/README.md` lists the keys.
+
+use model::{Joint, Mechanism, Side, UrdfJoint, UrdfSource};
+use nalgebra::Vector3;
+use plant::{PlantParameters, ServoParameters};
+use serde::Serialize;
+
+/// What an engine must know beside the URDF.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(super) struct UrdfSetup {
+    joints: Vec<DrivenJoint>,
+    held: Vec<HeldJoint>,
+    servo: HeldServos,
+    feet: BySide<Foot>,
+    soles: BySide<[f64; 3]>,
+    sole: SoleSize,
+    trunk_link: String,
+    /// Unit quaternion w, x, y, z.
+    to_ahead: [f64; 4],
+    friction: f64,
+    gravity: [f64; 3],
+    payload: PayloadInRoot,
+    mass_error: MassError,
+}
+
+/// A joint that the mechanism has, too.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct DrivenJoint {
+    role: &'static str,
+    urdf: String,
+    sign: f64,
+    effort: f64,
+    armature: f64,
+    /// Range in the URDF's sign; `None` for none.
+    range: Option<[f64; 2]>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct HeldJoint {
+    urdf: String,
+    at: f64,
+}
+
+/// Servos of the held joints between feet and trunk, and of the others.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct HeldServos {
+    legs_and_waist: Servo,
+    arms: Servo,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct Servo {
+    stiffness: f64,
+    damping: f64,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct BySide<T> {
+    right: T,
+    left: T,
+}
+
+/// A foot, by the last joint of its leg.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct Foot {
+    joint: String,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct SoleSize {
+    behind: f64,
+    ahead: f64,
+    half_width: f64,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct PayloadInRoot {
+    mass: f64,
+    at: [f64; 3],
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct MassError {
+    share: f64,
+    seed: u64,
+}
+
+impl UrdfSetup {
+    /// The setup for a robot that the plant's parameters and seed define.
+    pub(super) fn new(mechanism: &Mechanism, source: &UrdfSource, parameters: &PlantParameters, seed: u64) -> Self {
+        let turn = source.root_to_stand;
+        let sole = mechanism.sole;
+        let payload = parameters.payload;
+        Self {
+            joints: Joint::ALL.into_iter().filter_map(|joint| driven(mechanism, source, joint)).collect(),
+            held: source.held.iter().map(|held| HeldJoint { urdf: held.name.clone(), at: held.angle }).collect(),
+            servo: HeldServos {
+                legs_and_waist: servo(&parameters.servo[Mechanism::TRUNK]),
+                arms: servo(&parameters.servo[Joint::RightShoulder]),
+            },
+            feet: by_side(|side| Foot { joint: name_of(source, last_of_leg(mechanism, side)) }),
+            soles: by_side(|side| source.soles_in_root[side.index()].into()),
+            sole: SoleSize { behind: sole.behind, ahead: sole.ahead, half_width: sole.half_width },
+            trunk_link: source.trunk_link.clone(),
+            to_ahead: [turn.w, turn.i, turn.j, turn.k],
+            friction: parameters.contact.friction,
+            gravity: parameters.slope.gravity().into(),
+            payload: PayloadInRoot { mass: payload.mass, at: in_root(mechanism, source, payload.at).into() },
+            mass_error: MassError { share: parameters.mass_error, seed },
+        }
+    }
+}
+
+/// A joint as an engine drives it; `None` if the robot does not have it.
+fn driven(mechanism: &Mechanism, source: &UrdfSource, joint: Joint) -> Option<DrivenJoint> {
+    let (link, UrdfJoint { name, sign }) = (&mechanism.links[joint], source.joints[joint].as_ref()?);
+    let motor = link.motor?;
+    let range = link.limits.map(|limits| {
+        let [min, max] = [limits.angle_min, limits.angle_max].map(|angle| sign * angle);
+        [min.min(max), min.max(max)]
+    });
+    let (effort, armature) = (motor.torque_max(), motor.reflected_inertia());
+    Some(DrivenJoint { role: joint.name(), urdf: name.clone(), sign: *sign, effort, armature, range })
+}
+
+fn servo(parameters: &ServoParameters) -> Servo {
+    Servo { stiffness: parameters.stiffness, damping: parameters.damping }
+}
+
+fn by_side<T>(of: impl Fn(Side) -> T) -> BySide<T> {
+    BySide { right: of(Side::Right), left: of(Side::Left) }
+}
+
+/// The joint next to the foot.
+fn last_of_leg(mechanism: &Mechanism, side: Side) -> Joint {
+    let leg = mechanism.leg(side);
+    match side {
+        Side::Right => leg[0],
+        Side::Left => leg[leg.len() - 1],
+    }
+}
+
+/// The URDF's name of a joint; empty if the source does not tell it, which engines refuse.
+fn name_of(source: &UrdfSource, joint: Joint) -> String {
+    source.joints[joint].as_ref().map(|joint| joint.name.clone()).unwrap_or_default()
+}
+
+/// A place in the trunk's frame in coordinates of the URDF's root link, of the robot standing straight (m): all frames
+/// of the mechanism are parallel then.
+fn in_root(mechanism: &Mechanism, source: &UrdfSource, in_trunk: Vector3<f64>) -> Vector3<f64> {
+    let mut above_sole = in_trunk;
+    let mut link = Some(Mechanism::TRUNK);
+    while let Some(joint) = link {
+        above_sole += mechanism.links[joint].origin;
+        link = mechanism.links[joint].parent;
+    }
+    source.soles_in_root[Side::Right.index()] + source.root_to_stand.inverse() * above_sole
+}
