@@ -157,3 +157,64 @@ fn in_root(mechanism: &Mechanism, source: &UrdfSource, in_trunk: Vector3<f64>) -
     }
     source.soles_in_root[Side::Right.index()] + source.root_to_stand.inverse() * above_sole
 }
+
+#[cfg(test)]
+mod tests {
+    use config::Config;
+    use model::PerJoint;
+    use nalgebra::UnitQuaternion;
+
+    use super::*;
+
+    /// The committed robot, as if a URDF rooted at its pelvis faced y and turned every joint the other way.
+    fn imported() -> (Mechanism, UrdfSource) {
+        let file = |name| format!("{}/../../config/{name}", env!("CARGO_MANIFEST_DIR"));
+        let mechanism = Mechanism::load(file("mechanism.toml")).expect("the committed file");
+        let joints = PerJoint::from_fn(|joint| {
+            mechanism.has(joint).then(|| UrdfJoint { name: format!("{}_joint", joint.name()), sign: -1.0 })
+        });
+        let source = UrdfSource {
+            file: "robot.urdf".to_owned(),
+            trunk_link: "torso".to_owned(),
+            root_to_stand: UnitQuaternion::from_axis_angle(&Vector3::z_axis(), -std::f64::consts::FRAC_PI_2),
+            soles_in_root: [Vector3::new(0.1, 0.0, -0.9), Vector3::new(-0.1, 0.0, -0.9)],
+            joints,
+            held: vec![model::HeldJoint { name: "neck".to_owned(), angle: 0.2 }],
+        };
+        (mechanism, source)
+    }
+
+    fn parameters() -> PlantParameters {
+        let file = format!("{}/../../config/plant.toml", env!("CARGO_MANIFEST_DIR"));
+        PlantParameters::load(file).expect("the committed file")
+    }
+
+    #[test]
+    fn joints_that_turn_the_other_way_have_their_range_the_other_way() {
+        let (mechanism, source) = imported();
+        let setup = UrdfSetup::new(&mechanism, &source, &parameters(), 0);
+        assert_eq!(setup.joints.len(), 18);
+        for joint in &setup.joints {
+            let limits = Joint::from_name(joint.role).and_then(|role| mechanism.links[role].limits).expect("limits");
+            assert_eq!(joint.range, Some([-limits.angle_max, -limits.angle_min]), "{}", joint.role);
+        }
+    }
+
+    #[test]
+    fn feet_hang_on_the_ankles() {
+        let (mechanism, source) = imported();
+        let setup = UrdfSetup::new(&mechanism, &source, &parameters(), 0);
+        let joints = [&setup.feet.right.joint, &setup.feet.left.joint];
+        assert_eq!(joints, ["right_ankle_roll_joint", "left_ankle_roll_joint"]);
+    }
+
+    /// A payload half a metre ahead of the waist joint is half a metre along the root's y axis.
+    #[test]
+    fn payload_is_seen_from_the_root() {
+        let (mechanism, source) = imported();
+        let waist = in_root(&mechanism, &source, Vector3::zeros());
+        let ahead = in_root(&mechanism, &source, Vector3::new(0.5, 0.0, 0.0));
+        assert!((ahead - waist - Vector3::new(0.0, 0.5, 0.0)).norm() < 1e-12, "{waist} {ahead}");
+        assert!(waist.x.abs() < 0.02 && waist.z > -0.1, "between the legs and above the hips: {waist}");
+    }
+}
