@@ -6,15 +6,15 @@ use nalgebra::Vector3;
 use plant::{PlantParameters, ServoParameters};
 use serde::Serialize;
 
-/// What an engine must know beside the URDF.
+/// What an engine must know beside the URDF, in SI units.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct UrdfSetup {
     joints: Vec<DrivenJoint>,
-    held: Vec<HeldJoint>,
+    held: Vec<HeldAngle>,
     servo: HeldServos,
     feet: BySide<Foot>,
     soles: BySide<[f64; 3]>,
-    sole: SoleSize,
+    sole: SoleRectangle,
     trunk_link: String,
     /// Unit quaternion w, x, y, z.
     to_ahead: [f64; 4],
@@ -37,7 +37,7 @@ struct DrivenJoint {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
-struct HeldJoint {
+struct HeldAngle {
     urdf: String,
     at: f64,
 }
@@ -68,7 +68,7 @@ struct Foot {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
-struct SoleSize {
+struct SoleRectangle {
     behind: f64,
     ahead: f64,
     half_width: f64,
@@ -89,19 +89,23 @@ struct MassError {
 impl UrdfSetup {
     /// The setup for a robot that the plant's parameters and seed define.
     pub(super) fn new(mechanism: &Mechanism, source: &UrdfSource, parameters: &PlantParameters, seed: u64) -> Self {
-        let turn = source.root_to_stand;
+        let (turn, [right, left]) = (source.root_to_stand, source.soles_in_root);
         let sole = mechanism.sole;
         let payload = parameters.payload;
         Self {
             joints: Joint::ALL.into_iter().filter_map(|joint| driven(mechanism, source, joint)).collect(),
-            held: source.held.iter().map(|held| HeldJoint { urdf: held.name.clone(), at: held.angle }).collect(),
+            held: source.held.iter().map(|held| HeldAngle { urdf: held.name.clone(), at: held.angle }).collect(),
             servo: HeldServos {
                 legs_and_waist: servo(&parameters.servo[Mechanism::TRUNK]),
                 arms: servo(&parameters.servo[Joint::RightShoulder]),
             },
-            feet: by_side(|side| Foot { joint: name_of(source, last_of_leg(mechanism, side)) }),
-            soles: by_side(|side| source.soles_in_root[side.index()].into()),
-            sole: SoleSize { behind: sole.behind, ahead: sole.ahead, half_width: sole.half_width },
+            // The joints next to the feet.
+            feet: BySide {
+                right: Foot { joint: name_of(source, mechanism.leg(Side::Right)[0]) },
+                left: Foot { joint: name_of(source, mechanism.foot(Side::Left)) },
+            },
+            soles: BySide { right: right.into(), left: left.into() },
+            sole: SoleRectangle { behind: sole.behind, ahead: sole.ahead, half_width: sole.half_width },
             trunk_link: source.trunk_link.clone(),
             to_ahead: [turn.w, turn.i, turn.j, turn.k],
             friction: parameters.contact.friction,
@@ -126,19 +130,6 @@ fn driven(mechanism: &Mechanism, source: &UrdfSource, joint: Joint) -> Option<Dr
 
 fn servo(parameters: &ServoParameters) -> Servo {
     Servo { stiffness: parameters.stiffness, damping: parameters.damping }
-}
-
-fn by_side<T>(of: impl Fn(Side) -> T) -> BySide<T> {
-    BySide { right: of(Side::Right), left: of(Side::Left) }
-}
-
-/// The joint next to the foot.
-fn last_of_leg(mechanism: &Mechanism, side: Side) -> Joint {
-    let leg = mechanism.leg(side);
-    match side {
-        Side::Right => leg[0],
-        Side::Left => leg[leg.len() - 1],
-    }
 }
 
 /// The URDF's name of a joint; empty if the source does not tell it, which engines refuse.
