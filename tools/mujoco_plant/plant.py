@@ -24,6 +24,7 @@ import contextlib
 import json
 import math
 import os
+import random
 import sys
 from xml.etree import ElementTree
 
@@ -252,19 +253,21 @@ class Urdf:
 
     Shapes, meshes and extensions are left out. A floating joint of the root becomes fixed, since the root itself gets a
     free joint. Moving links without mass get a tiny one, and inertias that no body can have become the next possible
-    ones. Names are unique.
+    ones. Names are unique. Each link's mass, and independently its inertia, is a `factor()` of what the URDF says.
     """
 
-    def __init__(self, text):
+    def __init__(self, text, factor=lambda: 1.0):
         told = ElementTree.fromstring(text)
+        self.factor = factor
         links, joints = told.findall("link"), told.findall("joint")
         names = [link.get("name") for link in links]
         if twice := {name for name in names if names.count(name) > 1}:
             raise ValueError(f"several links are called {', '.join(sorted(twice))}")
         # MuJoCo's name for each link: whatever is called `world` would be the world.
         self.bodies = dict(zip(names, unique(["world", *names])[1:]))
-        # By the child link: parent link and joint. By the name of a joint that moves: parent and child link.
-        self.parents, self.moving = {}, {}
+        # By the child link: parent link and joint. By the name of a joint that moves: parent and child link, and how
+        # strong it is, where that is told.
+        self.parents, self.moving, self.efforts = {}, {}, {}
         self.robot = ElementTree.Element("robot", name=told.get("name") or "robot")
         extension = ElementTree.SubElement(self.robot, "mujoco")
         # Static bodies are fused later, once the root has its free joint.
@@ -298,6 +301,15 @@ class Urdf:
             link = self.parents[link][0]
         return link
 
+    def between(self, link, other):
+        """The joints on the way from one link to another."""
+        ways = [set(), set()]
+        for way, at in zip(ways, (link, other)):
+            while at in self.parents:
+                at, joint = self.parents[at]
+                way.add(joint)
+        return ways[0] ^ ways[1]
+
     def _add_link(self, link):
         added = ElementTree.SubElement(self.robot, "link", name=self.bodies[link.get("name")])
         mass = link.find("inertial/mass")
@@ -307,6 +319,7 @@ class Urdf:
         told = {} if inertia is None else inertia.attrib
         xx, xy, xz, yy, yz, zz = (float(told.get(key, 0)) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
         inertia = possible(mass, np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]))
+        mass, inertia = mass * self.factor(), inertia * self.factor()
         set_inertial(added, mass, inertia, place_of(link.find("inertial/origin")))
 
     def _add_joint(self, joint, name):
@@ -325,7 +338,9 @@ class Urdf:
             self.moving[name] = (parent, child)
             axis, limit, dynamics = (joint.find(tag) for tag in ("axis", "limit", "dynamics"))
             ElementTree.SubElement(added, "axis", xyz="1 0 0" if axis is None else axis.get("xyz", "1 0 0"))
-            # How strong a joint is, the setup says; and of one that mimics another, at which angle it is held.
+            if limit is not None and float(limit.get("effort", 0)) > 0:
+                self.efforts[name] = float(limit.get("effort"))
+            # How strong a driven joint is, the setup says; and of one that mimics another, at which angle it is held.
             if limit is not None and kind != "continuous" and {"lower", "upper"} & set(limit.attrib):
                 ElementTree.SubElement(added, "limit", lower=limit.get("lower", "0"), upper=limit.get("upper", "0"))
             if dynamics is not None:
@@ -389,7 +404,10 @@ class UrdfModel:
     """
 
     def __init__(self, text, setup, step_s):
-        self.urdf, self.setup, self.step_s = Urdf(text), setup, step_s
+        wrong, seed = (setup["mass_error"][key] for key in ("share", "seed"))
+        errors = random.Random(seed)
+        self.urdf = Urdf(text, lambda: 1 + errors.uniform(-wrong, wrong))
+        self.setup, self.step_s = setup, step_s
         self.spec = mujoco.MjSpec.from_string(self.urdf.text())
         self._set_options()
         self.spec.body(self.urdf.bodies[self.urdf.root]).add_freejoint(name=unique([*self.urdf.moving, "root"])[-1])
@@ -426,7 +444,7 @@ class UrdfModel:
 
     def _set_joints(self):
         """Motors for the driven joints, which become drives later, and servos for those that are held."""
-        driven, held = self.setup["joints"], self.setup["held"]
+        driven, held, bearing = self.setup["joints"], self.setup["held"], self._bearing()
         told = [joint["urdf"] for joint in [*driven, *held]]
         if twice := {name for name in told if told.count(name) > 1}:
             raise ValueError(f"urdf_setup has {', '.join(sorted(twice))} twice")
@@ -441,12 +459,19 @@ class UrdfModel:
             if "range" in joint:
                 self._set_range(joint["urdf"], joint["range"])
         for joint in held:
-            actuator = self._set_joint(joint)
+            actuator = self._set_joint({"effort": self.urdf.efforts.get(joint["urdf"]), **joint})
             self._set_range(joint["urdf"], None)
-            stiffness, damping = joint["stiffness"], joint["damping"]
+            servo = self.setup["servo"]["legs_and_waist" if joint["urdf"] in bearing else "arms"]
+            stiffness, damping = servo["stiffness"], servo["damping"]
             # A drive with a constant target, evaluated at the end of the step.
             actuator.gainprm[0] = 0
             actuator.biasprm[0:3] = stiffness * joint["at"], -stiffness, -(damping + self.step_s * stiffness)
+
+    def _bearing(self):
+        """The joints between the feet and the trunk, whose drives carry the robot."""
+        feet = [self._link(self.setup["feet"][side]["joint"], 1) for side in SIDES]
+        trunk = self.urdf.carrier(self.setup["trunk_link"])
+        return set().union(*(self.urdf.between(foot, trunk) for foot in feet))
 
     def _set_joint(self, told):
         """Sets what driven and held joints have in common. Returns the actuator."""

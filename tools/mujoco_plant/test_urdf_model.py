@@ -174,11 +174,11 @@ def first_message(folder, name):
             | ({"range": ranges[table[role]]} if table[role] in ranges else {})
             for role, sign in zip(roles, signs)
         ],
-        "held": [
-            {"urdf": joint, "at": at, "stiffness": 1.5 * strength, "damping": 0.03 * strength}
-            | {"effort": reader.limit(joint, "effort"), "armature": 2e-4 * inertia}
-            for joint, at in held.items()
-        ],
+        "held": [{"urdf": joint, "at": at, "armature": 2e-4 * inertia} for joint, at in held.items()],
+        "servo": {
+            "legs_and_waist": {"stiffness": 8 * strength, "damping": 0.24 * strength},
+            "arms": {"stiffness": 1.5 * strength, "damping": 0.03 * strength},
+        },
         "feet": {side: {"joint": table[f"{side}_{last[side]}"]} for side in SIDES},
         "soles": soles,
         "sole": {"behind": sole["behind_m"], "ahead": sole["ahead_m"], "half_width": sole["width_m"] / 2},
@@ -187,6 +187,7 @@ def first_message(folder, name):
         "friction": 0.8,
         "gravity": [0, 0, -GRAVITY],
         "payload": {"mass": 0, "at": [0, 0, 0]},
+        "mass_error": {"share": 0, "seed": 0},
     }
     stiffness = [8 * strength] * len(roles)
     told = {
@@ -425,6 +426,17 @@ def check_payload(name, told, reader):
     assert abs(mujoco.mj_getTotalmass(robot.model) - reader.mass - 2.0) < 1e-5
 
 
+def check_mass_error(name, told, reader):
+    """Masses are wrong by no more than they should be, the same for the same seed."""
+    share = 0.1
+    masses = []
+    for seed in (1, 1, 2):
+        setup = told["urdf_setup"] | {"mass_error": {"share": share, "seed": seed}}
+        masses.append(mujoco.mj_getTotalmass(plant.UrdfRobot(told | {"urdf_setup": setup}).model))
+    assert masses[0] == masses[1] != masses[2], f"{name}: masses {masses} kg"
+    assert all(0 < abs(mass / reader.mass - 1) < share for mass in masses), f"{name}: masses {masses} kg"
+
+
 def check_pipes(name, told):
     """The process answers as the class does."""
     robot = plant.UrdfRobot(told)
@@ -507,8 +519,8 @@ def check_peculiar(told):
     """Massless, impossible and point-like links, joints without limits, of other kinds, and with unusual names."""
     setup = told["urdf_setup"]
     urdf = told["urdf"].rstrip().removesuffix("</robot>") + PECULIAR.format(trunk=setup["trunk_link"])
-    servo = {"at": 0.1, "stiffness": 200.0, "damping": 5.0, "effort": None, "armature": 0.001}
-    held = [servo | {"urdf": "dreh_ö"}, servo | {"urdf": "slide", "stiffness": 1e4}, servo | {"urdf": "follower"}]
+    servo = {"at": 0.1, "armature": 0.001}
+    held = [servo | {"urdf": joint} for joint in ("dreh_ö", "slide", "follower")]
     told = told | {"urdf": urdf, "urdf_setup": setup | {"held": setup["held"] + held}}
     robot = plant.UrdfRobot(told)
     mass = Reader(urdf).mass
@@ -555,6 +567,7 @@ def check_robot(folder, name):
     check_kinematics(name, told, reader)
     check_round_trip(name, told)
     check_payload(name, told, reader)
+    check_mass_error(name, told, reader)
     check_push(name, told, reader)
     check_limits(name, told)
     sag, tilt, taken, torque, robot = check_standing(name, told, reader)

@@ -1,7 +1,7 @@
 //! Inverse kinematics of a leg of any structure, by Newton's method on its chain of six joints alone.
 //!
-//! As [`solve_leg`](crate::solve_leg), for planning: the chain is prepared once, and an iteration touches nothing but six
-//! joints. With the angles of a moment ago as a first guess one or two iterations suffice.
+//! As [`solve_leg`](crate::solve_leg), for planning: the chain is prepared once, and an iteration touches nothing but
+//! six joints. With the angles of a moment ago as a first guess one or two iterations suffice.
 
 use model::{Joint, JointVector, Mechanism, Side};
 use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3, Vector6};

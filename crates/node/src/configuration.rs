@@ -3,13 +3,14 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt::Display;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use config::{Config, ConfigErrors};
 use controller::Controller;
 use gait::{NominalTable, Robot, Start, TableFileError};
-use model::Mechanism;
+use model::{Mechanism, UrdfSource};
 use plant::Disturbances;
 
 use crate::cycle::Clock;
@@ -27,6 +28,8 @@ pub const CONTROLLER: &str = "controller.toml";
 pub const PLANT: &str = "plant.toml";
 /// Name of the file with the rate and the scheduling of both loops.
 pub const REALTIME: &str = "realtime.toml";
+/// Name under which a recording holds the URDF that an external engine was given.
+pub const URDF: &str = "robot.urdf";
 /// Name under which a recording holds the plant's disturbances.
 pub const DISTURBANCES: &str = "disturbances.toml";
 
@@ -124,6 +127,24 @@ impl ConfigFiles {
     /// Path of the nominal half-step's file.
     pub fn nominal_file(&self) -> PathBuf {
         self.nominal.clone().unwrap_or_else(|| self.folder.join(NOMINAL))
+    }
+
+    /// Path of the URDF from which the mechanism was imported: it lies beside the mechanism's file.
+    pub fn urdf_file(&self, source: &UrdfSource) -> PathBuf {
+        self.mechanism_file().with_file_name(&source.file)
+    }
+
+    /// The text of the URDF from which the mechanism was imported; `None` if its file is not there any more.
+    ///
+    /// # Errors
+    /// The file is there, but cannot be read.
+    pub fn urdf(&self, source: &UrdfSource) -> Result<Option<String>, NodeError> {
+        let file = self.urdf_file(source);
+        match self.text(&file) {
+            Ok(text) => Ok(Some(text)),
+            Err(reason) if reason.kind() == ErrorKind::NotFound => Ok(None),
+            Err(reason) => Err(NodeError::file(&file)(reason)),
+        }
     }
 
     /// Reads the mechanism and its nominal half-step, and checks that the one was made for the other.

@@ -4,9 +4,9 @@ use interface::Setpoint;
 use std::path::{Path, PathBuf};
 
 use gait::{Robot, Start, Walk};
-use model::Motion;
+use model::{Mechanism, Motion};
 use node::announcements::Announced;
-use node::configuration::{ConfigFiles, Errors, PLANT};
+use node::configuration::{ConfigFiles, Errors, PLANT, URDF};
 use node::cycle::Cycles;
 use node::engine::{self, EngineSetup, ExternalEngine};
 use node::interrupt::Interrupt;
@@ -66,12 +66,16 @@ impl PlantArgs {
         let start = if self.runs.from_stand { self.stand(&robot, &files)? } else { robot.nominal.at(0.0) };
         let period = realtime.rate.period_s();
         let mut plant = plant::Plant::new(&robot.mechanism, &parameters, &start, period, self.seed);
+        let urdf = self.urdf(&robot.mechanism, &files)?;
         let mut outside = match self.engine {
             Engine::Rust => None,
             Engine::Mujoco => {
-                let stands = plant::RobotState::on_right_foot(&start, 0.0);
-                let setup = EngineSetup::new(&robot.mechanism, &parameters, &disturbances, &stands, self.seed, period)
-                    .map_err(CliError::new)?;
+                let (mechanism, stands) = (&robot.mechanism, plant::RobotState::on_right_foot(&start, 0.0));
+                let setup = EngineSetup::new(mechanism, &parameters, &disturbances, &stands, self.seed, period);
+                let mut setup = setup.map_err(CliError::new)?;
+                if let (Some(text), Some(source)) = (urdf.clone(), &mechanism.source) {
+                    setup = setup.with_urdf(text, source, mechanism, &parameters, self.seed);
+                }
                 Some(ExternalEngine::start(engine::mujoco()?, &setup).map_err(CliError::new)?)
             }
         };
@@ -81,7 +85,7 @@ impl PlantArgs {
         let _leftovers = instance.leftovers();
         let PlantPorts { setpoints, mut measurements } = PlantPorts::connect(&instance, robot.mechanism.fingerprint)?;
         let clock = self.runs.clock();
-        let to = self.recorded(&files, realtime.rate, robot.mechanism.fingerprint)?;
+        let to = self.recorded(&files, urdf, realtime.rate, robot.mechanism.fingerprint)?;
         realtime.keep_off_the_loop(clock);
         let (mut recorder, recorder_thread) = recorder::of_plant(clock, realtime.rate, to, self.child.announced())?;
         let ticks = self.runs.ticks(realtime.rate);
@@ -125,15 +129,30 @@ impl PlantArgs {
         Ok(Status::success_if(run.fell_at.is_none() && run.unstable.is_none() && summary.record_error.is_none()))
     }
 
+    /// The URDF for MuJoCo, if the robot was imported from one.
+    fn urdf(&self, mechanism: &Mechanism, files: &ConfigFiles) -> Result<Option<String>, CliError> {
+        let Some(source) = mechanism.source.as_ref().filter(|_| self.engine == Engine::Mujoco) else {
+            return Ok(None);
+        };
+        let urdf = files.urdf(source)?;
+        if urdf.is_none() {
+            let file = files.urdf_file(source);
+            tell(format_args!("plant: {} does not exist: MuJoCo gets the mechanism instead", file.display()));
+        }
+        Ok(urdf)
+    }
+
     /// Where to record to, if anywhere, and what the run begins with.
     fn recorded(
         &self,
         files: &ConfigFiles,
+        urdf: Option<String>,
         rate: Rate,
         fingerprint: u64,
     ) -> Result<Option<(&Path, Provenance)>, CliError> {
         let Some(folder) = self.child.out.as_deref() else { return Ok(None) };
-        let files = files.texts(PLANT, self.disturbances.as_deref())?;
+        let mut files = files.texts(PLANT, self.disturbances.as_deref())?;
+        files.extend(urdf.map(|text| (URDF.to_owned(), text)));
         let mut how = Metadata::new("plant", self.runs.words(&self.instance, rate, fingerprint));
         how.entries.insert("seed".to_owned(), self.seed.to_string());
         how.entries.insert("engine".to_owned(), self.engine.name().to_owned());

@@ -8,56 +8,12 @@ use std::time::Duration;
 
 use crossbeam::channel::{Receiver, RecvTimeoutError, Sender, bounded};
 
-use interchange::mjcf::mjcf_text;
-use model::{Joint, Mechanism};
-use plant::{Disturbances, Plant, PlantParameters, RobotState, with_mass_error};
-use serde::{Deserialize, Serialize};
+use plant::Plant;
+use serde::Deserialize;
 
-use super::message::{SETPOINT_LEN, STATE_LEN, decode_state, encode_setpoint};
-
-/// Version of the protocol between this program and engines.
-const PROTOCOL: u32 = 1;
-
-/// The first message to an engine: robot, floor, drives, and disturbances.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct EngineSetup {
-    protocol: u32,
-    /// Robot and floor as a complete MJCF model.
-    mjcf: String,
-    period_s: f64,
-    steps_per_period: u32,
-    /// Names of the powered joints, in the order of the other lists.
-    joints: Vec<&'static str>,
-    /// Servo stiffness of each powered joint (N·m/rad).
-    stiffness: Vec<f64>,
-    /// Servo damping of each powered joint (N·m·s/rad).
-    damping: Vec<f64>,
-    /// Torque lost to back-EMF of each powered joint, per rate (N·m·s/rad).
-    back_emf: Vec<f64>,
-    start: InitialState,
-    pushes: Vec<ScheduledPush>,
-}
-
-/// State of the robot at the start; angles and rates are the joints', the rest are the right sole's in world axes.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-struct InitialState {
-    position: [f64; 3],
-    /// Unit quaternion w, x, y, z.
-    orientation: [f64; 4],
-    angular_rate: [f64; 3],
-    velocity: [f64; 3],
-    angles: [f64; Joint::COUNT],
-    rates: [f64; Joint::COUNT],
-}
-
-/// A push at a link's centre of mass.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-struct ScheduledPush {
-    body: &'static str,
-    impulse: [f64; 3],
-    start: f64,
-    duration: f64,
-}
+use super::engine_error::EngineError;
+use super::engine_setup::EngineSetup;
+use super::message::{PROTOCOL, SETPOINT_LEN, STATE_LEN, decode_state, encode_setpoint};
 
 /// An engine's answer to the first message.
 #[derive(Clone, Debug, Deserialize)]
@@ -90,96 +46,6 @@ enum Answer {
 const START_MAX: Duration = Duration::from_secs(120);
 /// How long an engine may take to compute a control period.
 const STEP_MAX: Duration = Duration::from_secs(10);
-
-/// Why an engine cannot be used. The engine itself may have printed more on stderr.
-#[derive(Debug, thiserror::Error)]
-pub enum EngineError {
-    /// The engine's program cannot be started.
-    #[error("cannot start the engine `{program}`: {cause}")]
-    Start {
-        /// Name of the program.
-        program: String,
-        /// Why the operating system refused.
-        cause: std::io::Error,
-    },
-    /// The plant's parameters have an uneven floor, which external engines do not support.
-    #[error("unevenness.height_m is {height}: other engines know even floors only, 0 would be right")]
-    Uneven {
-        /// The configured height of the unevenness (m).
-        height: f64,
-    },
-    /// The engine's process has ended.
-    #[error("the engine has ended: {0}")]
-    Ended(std::io::Error),
-    /// The engine runs but does not answer.
-    #[error("the engine has not answered for {} s", .0.as_secs())]
-    Silent(Duration),
-    /// The operating system refused a thread to read from the engine.
-    #[error("cannot start a thread: {0}")]
-    Thread(std::io::Error),
-    /// The engine's protocol is a different one.
-    #[error(
-        "engine protocol mismatch: expected protocol {PROTOCOL} with records of {SETPOINT_LEN} and {STATE_LEN} \
-         numbers, got {0}"
-    )]
-    Mismatch(String),
-    /// The engine's simulation has diverged.
-    #[error("the engine's state after {time} s is not finite, or its orientation is invalid")]
-    NotFinite {
-        /// Simulated time since the start (s).
-        time: f64,
-    },
-}
-
-impl EngineSetup {
-    /// The setup for the robot that the plant's parameters and seed define, with its initial state.
-    ///
-    /// # Errors
-    /// [`EngineError::Uneven`].
-    pub fn new(
-        mechanism: &Mechanism,
-        parameters: &PlantParameters,
-        disturbances: &Disturbances,
-        start: &RobotState,
-        seed: u64,
-        period: f64,
-    ) -> Result<Self, EngineError> {
-        if parameters.unevenness.height > 0.0 {
-            return Err(EngineError::Uneven { height: parameters.unevenness.height });
-        }
-        let built = with_mass_error(mechanism, parameters.mass_error, seed);
-        let motors = || Joint::ALL.into_iter().filter_map(|joint| Some((joint, mechanism.links[joint].motor?)));
-        let orientation = start.sole_to_world.rotation;
-        Ok(Self {
-            protocol: PROTOCOL,
-            mjcf: mjcf_text(&built, parameters, period),
-            period_s: period,
-            steps_per_period: parameters.steps_per_period,
-            joints: motors().map(|(joint, _)| joint.name()).collect(),
-            stiffness: motors().map(|(joint, _)| parameters.servo[joint].stiffness).collect(),
-            damping: motors().map(|(joint, _)| parameters.servo[joint].damping).collect(),
-            back_emf: motors().map(|(_, motor)| motor.back_emf_damping()).collect(),
-            start: InitialState {
-                position: start.sole_to_world.translation.vector.into(),
-                orientation: [orientation.w, orientation.i, orientation.j, orientation.k],
-                angular_rate: start.angular_rate.into(),
-                velocity: start.velocity.into(),
-                angles: start.angles.0,
-                rates: start.rates.0,
-            },
-            pushes: disturbances
-                .pushes
-                .iter()
-                .map(|push| ScheduledPush {
-                    body: push.link.link_name().unwrap_or(push.link.name()),
-                    impulse: push.impulse.into(),
-                    start: push.start,
-                    duration: push.duration,
-                })
-                .collect(),
-        })
-    }
-}
 
 impl ExternalEngine {
     /// Starts an engine and sends it the setup.

@@ -5,9 +5,14 @@
 //! `tools/mujoco_plant/plant.py`). Services, clock, sensors, faults and recording stay in this process, so that both
 //! plants differ in nothing but physics, and a run in lockstep depends on nothing but its inputs.
 
+mod engine_error;
+mod engine_setup;
 mod environment;
 mod external_engine;
 mod message;
+mod urdf_setup;
 
+pub use engine_error::EngineError;
+pub use engine_setup::EngineSetup;
 pub use environment::{EnvironmentError, cache, is_installed, mujoco, python};
-pub use external_engine::{EngineError, EngineSetup, ExternalEngine};
+pub use external_engine::ExternalEngine;

@@ -1,0 +1,125 @@
+//! The first message to an engine: the robot as its mechanism or as its URDF, and what the run begins with.
+
+use interchange::mjcf::mjcf_text;
+use model::{Joint, Mechanism, UrdfSource};
+use plant::{Disturbances, PlantParameters, RobotState, with_mass_error};
+use serde::Serialize;
+
+use super::engine_error::EngineError;
+use super::message::PROTOCOL;
+use super::urdf_setup::UrdfSetup;
+
+/// The first message to an engine: robot, floor, drives, and disturbances.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct EngineSetup {
+    protocol: u32,
+    #[serde(flatten)]
+    robot: RobotModel,
+    period_s: f64,
+    steps_per_period: u32,
+    /// Names of the powered joints, in the order of the other lists.
+    joints: Vec<&'static str>,
+    /// Servo stiffness of each powered joint (N·m/rad).
+    stiffness: Vec<f64>,
+    /// Servo damping of each powered joint (N·m·s/rad).
+    damping: Vec<f64>,
+    /// Torque lost to back-EMF of each powered joint, per rate (N·m·s/rad).
+    back_emf: Vec<f64>,
+    start: InitialState,
+    pushes: Vec<ScheduledPush>,
+}
+
+/// How the robot is described; the variant's fields are keys of the message.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+enum RobotModel {
+    /// Mechanism and floor as a complete MJCF model.
+    Mechanism { mjcf: String },
+    /// The URDF that the mechanism was imported from.
+    Urdf { urdf: String, urdf_setup: Box<UrdfSetup> },
+}
+
+/// State of the robot at the start; angles and rates are the joints', the rest are the right sole's in world axes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct InitialState {
+    position: [f64; 3],
+    /// Unit quaternion w, x, y, z.
+    orientation: [f64; 4],
+    angular_rate: [f64; 3],
+    velocity: [f64; 3],
+    angles: [f64; Joint::COUNT],
+    rates: [f64; Joint::COUNT],
+}
+
+/// A push at a link's centre of mass.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct ScheduledPush {
+    body: &'static str,
+    impulse: [f64; 3],
+    start: f64,
+    duration: f64,
+}
+
+impl EngineSetup {
+    /// The setup for the robot that the plant's parameters and seed define, with its initial state.
+    ///
+    /// # Errors
+    /// [`EngineError::Uneven`].
+    pub fn new(
+        mechanism: &Mechanism,
+        parameters: &PlantParameters,
+        disturbances: &Disturbances,
+        start: &RobotState,
+        seed: u64,
+        period: f64,
+    ) -> Result<Self, EngineError> {
+        if parameters.unevenness.height > 0.0 {
+            return Err(EngineError::Uneven { height: parameters.unevenness.height });
+        }
+        let built = with_mass_error(mechanism, parameters.mass_error, seed);
+        let motors = || Joint::ALL.into_iter().filter_map(|joint| Some((joint, mechanism.links[joint].motor?)));
+        let orientation = start.sole_to_world.rotation;
+        Ok(Self {
+            protocol: PROTOCOL,
+            robot: RobotModel::Mechanism { mjcf: mjcf_text(&built, parameters, period) },
+            period_s: period,
+            steps_per_period: parameters.steps_per_period,
+            joints: motors().map(|(joint, _)| joint.name()).collect(),
+            stiffness: motors().map(|(joint, _)| parameters.servo[joint].stiffness).collect(),
+            damping: motors().map(|(joint, _)| parameters.servo[joint].damping).collect(),
+            back_emf: motors().map(|(_, motor)| motor.back_emf_damping()).collect(),
+            start: InitialState {
+                position: start.sole_to_world.translation.vector.into(),
+                orientation: [orientation.w, orientation.i, orientation.j, orientation.k],
+                angular_rate: start.angular_rate.into(),
+                velocity: start.velocity.into(),
+                angles: start.angles.0,
+                rates: start.rates.0,
+            },
+            pushes: disturbances
+                .pushes
+                .iter()
+                .map(|push| ScheduledPush {
+                    body: push.link.link_name().unwrap_or(push.link.name()),
+                    impulse: push.impulse.into(),
+                    start: push.start,
+                    duration: push.duration,
+                })
+                .collect(),
+        })
+    }
+
+    /// The same run with the robot that the text of a URDF describes, from which the mechanism was imported.
+    #[must_use]
+    pub fn with_urdf(
+        self,
+        urdf: String,
+        source: &UrdfSource,
+        mechanism: &Mechanism,
+        parameters: &PlantParameters,
+        seed: u64,
+    ) -> Self {
+        let urdf_setup = Box::new(UrdfSetup::new(mechanism, source, parameters, seed));
+        Self { robot: RobotModel::Urdf { urdf, urdf_setup }, ..self }
+    }
+}
