@@ -4,6 +4,9 @@ use std::io::IsTerminal;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+/// Size of a thread's stack (bytes): several walks fit, each of which is a large value.
+const STACK: usize = 64 << 20;
+
 /// `walk(0)` to `walk(count - 1)`, in this order whoever is first. Somebody who watches is told how far it is.
 pub(crate) fn on_all_cores<T: Send>(count: usize, walk: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
@@ -23,10 +26,10 @@ pub(crate) fn on_all_cores<T: Send>(count: usize, walk: impl Fn(usize) -> T + Sy
     };
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     std::thread::scope(|scope| {
-        for _ in 1..cores {
-            scope.spawn(worker);
+        for _ in 0..cores {
+            let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, worker);
+            thread.expect("a thread for each core");
         }
-        worker();
     });
     if is_watched {
         eprintln!();

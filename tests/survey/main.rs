@@ -21,6 +21,8 @@ mod mujoco;
 mod needs;
 mod playback;
 mod pushes;
+#[cfg(all(feature = "mujoco", feature = "processes"))]
+mod robots;
 mod single;
 mod spoiling;
 mod start_stop;
@@ -69,6 +71,9 @@ enum Survey {
     /// program beside this one; --kills 1000 for acceptance
     #[cfg(feature = "processes")]
     Kill(kill::Options),
+    /// Public robots, imported from their URDFs, in our plant and in MuJoCo: the table of docs/robots.md
+    #[cfg(all(feature = "mujoco", feature = "processes"))]
+    Robots(robots::Options),
     /// What is granted, walked in MuJoCo
     #[cfg(feature = "mujoco")]
     Mujoco(mujoco::Options),
@@ -95,6 +100,8 @@ fn main() -> ExitCode {
         Survey::Margins(options) => margins::survey(options),
         #[cfg(feature = "processes")]
         Survey::Kill(options) => kill::survey(options),
+        #[cfg(all(feature = "mujoco", feature = "processes"))]
+        Survey::Robots(options) => robots::survey(options),
         #[cfg(feature = "mujoco")]
         Survey::Mujoco(options) => mujoco::survey(options),
         #[cfg(feature = "mujoco")]
