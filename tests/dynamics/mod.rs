@@ -5,5 +5,6 @@ mod energy_is_kept_by_a_free_robot;
 mod forward_dynamics_undoes_inverse_dynamics;
 mod mass_matrix_columns_are_newton_eulers;
 mod pinocchio_agrees;
+mod robots_of_any_structure_obey_the_same_laws;
 mod torques_follow_the_square_of_the_speed;
 mod zmp_by_two_ways_agrees;

@@ -162,3 +162,29 @@ fn end_conditions(basis: &SplineBasis) -> DMatrix<f64> {
     }
     conditions
 }
+
+#[cfg(test)]
+mod tests {
+    use config::Config;
+    use model::{Joint, Mechanism};
+
+    use crate::{Balance, LegPattern, SynthesisParameters, synthesize};
+
+    /// The oracle: inverse dynamics of the rows; and the mirror, that the end is the start on the other foot.
+    #[test]
+    fn a_pelvis_balances_the_robot_with_its_trunk_upright() {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism.toml");
+        let mechanism = Mechanism::load(file).unwrap();
+        for step_length in [0.0, 0.15, 0.25] {
+            let parameters =
+                SynthesisParameters { step_length, balance: Balance::Pelvis, ..SynthesisParameters::default() };
+            let found = synthesize(&mechanism, &LegPattern::Pendulum, &parameters, "a test").unwrap();
+            assert!(found.report.residual < 1e-4, "{} m", found.report.residual);
+            assert!(found.report.swap_angle < 1e-10 && found.report.swap_rate < 1e-8, "{:?}", found.report);
+            for row in &found.table.rows {
+                let motion = &row.motion;
+                assert_eq!([motion.angles[Joint::WaistPitch], motion.angles[Joint::WaistRoll]], [0.0; 2]);
+            }
+        }
+    }
+}
