@@ -10,8 +10,9 @@ use crate::inverse_kinematics::Unreachable;
 use crate::sin_cos::sin_cos;
 use crate::tree::JointAxis;
 
-/// Residual below which the next Newton step is the last one (m, rad): its error is the square of this.
-const NEAR: f64 = 1e-6;
+/// Residual below which the next Newton step is the last one (m, rad): what is left is its square, 1e-9, and in the
+/// angles of a nearly stretched leg some hundred times that.
+const NEAR: f64 = 2e-5;
 /// Most Newton steps.
 const ITERATIONS_MAX: usize = 40;
 /// Longest Newton step of a joint (rad); near the stretched leg full steps would diverge.

@@ -110,7 +110,8 @@ fn legs_of_another_structure_are_solved_by_iteration() {
         for side in Side::BOTH {
             solver.solve(side, &poses[2], &poses[side.index()], &mut angles).expect("within reach");
             for joint in tree.leg(side) {
-                assert!((angles[joint] - expected[joint]).abs() < 1e-9, "{joint:?} of {expected:?}");
+                // The last step is not iterated further: see `leg_chain.rs`.
+                assert!((angles[joint] - expected[joint]).abs() < 1e-6, "{joint:?} of {expected:?}");
             }
         }
     }
