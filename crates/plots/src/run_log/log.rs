@@ -150,7 +150,7 @@ mod tests {
                 let mut truth: TruthMessage = message(truth);
                 // Else hardly any is drawn.
                 truth.right_sole[3] = if number % 5 == 4 { truth.right_sole[3] } else { 1.0 };
-                time_ns += if long { step << 58 } else { step * 100_000_000 };
+                time_ns = u64::saturating_add(time_ns, if long { step << 58 } else { step * 100_000_000 });
                 for event in [RunEvent::Truth(truth), RunEvent::Report(message::<ReportMessage>(report))] {
                     writer.write(time_ns, number, &event).unwrap();
                 }
