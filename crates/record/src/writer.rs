@@ -73,7 +73,7 @@ impl RecordingWriter {
     pub fn write(&mut self, time_ns: u64, number: u32, event: &RunEvent) -> Result<(), RecordError> {
         if time_ns >= self.chunk_end {
             self.flush()?;
-            self.chunk_end = time_ns - time_ns % CHUNK_NS + CHUNK_NS;
+            self.chunk_end = (time_ns - time_ns % CHUNK_NS).saturating_add(CHUNK_NS);
         }
         self.bytes.clear();
         self.bytes.extend(HEAD);
