@@ -1,8 +1,9 @@
 //! The mechanism as MJCF, MuJoCo's own format.
 //!
 //! A floating tree: the free joint carries the right foot, whose frame lies on the sole, so that joints 1 and 2, the
-//! contact of foot and ground, arise from contact. Joints 3 to 20 keep their names. Those that meet in one point share a
-//! body, so that no moving body is massless; those that the robot does not have are left out. Rotors enter as `armature`. Only soles and floor collide.
+//! contact of foot and ground, arise from contact. Joints 3 to 20 keep their names. Those that meet in one point share
+//! a body, so that no moving body is massless; those that the robot does not have are left out. Rotors enter as
+//! `armature`. Only soles and floor collide.
 //!
 //! The actuators are plain torque motors, limited to the motor's torque at standstill: position servo and back-EMF
 //! belong to the drive, which `plant::Drive` or `tools/mujoco_plant` adds.
