@@ -74,7 +74,7 @@ impl<'m> MjcfBodies<'m> {
         Joint::ALL.into_iter().filter(move |joint| *joint != Mechanism::RIGHT_FOOT).filter(hangs_on)
     }
 
-    /// The joints between a body and the one that carries it, the lowest first, with those that the robot does not have.
+    /// The joints between a body and the one that carries it, the lowest first; also those that the robot lacks.
     fn joints_of(&self, link: Joint) -> Vec<Joint> {
         let mut joints = vec![link];
         while let Some(parent) = self.mechanism.links[joints[0]].parent.filter(|parent| !self.is_body[*parent]) {
