@@ -98,6 +98,5 @@ fn map() -> String {
         let (motor, rate) = if joint >= Joint::RightShoulder { ("arm", 600) } else { ("leg", 500) };
         map += &format!("[joint.{name}]\nurdf = \"{name}\"\nmotor = \"{motor}\"\nrate_max_deg_per_s = {rate}\n");
     }
-    map + "[idealise]\naxes_moved_max_m = 0.001\nproducts_of_inertia_max_share = 0.001\nasymmetry_max_m = 0.001\n\
-           asymmetry_max_share = 0.001\n"
+    map
 }

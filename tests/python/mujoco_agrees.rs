@@ -6,12 +6,14 @@
 use std::io::Write;
 use std::process::Stdio;
 
+use config::Config;
 use dynamics::{NewtonEuler, Tree, mass_matrix};
+use halfstep::built_in_robots::ROBOTS;
 use halfstep_tests::walking::plant_parameters;
 use halfstep_tests::{mechanism, python, random, random_motion, repository};
 use interchange::mjcf::mjcf_text;
 use interchange::urdf::urdf_text;
-use model::{Joint, Motion};
+use model::{Joint, Mechanism, Motion};
 use serde_json::{Value, json};
 
 const STATES: usize = 20;
@@ -65,6 +67,32 @@ fn mujoco_loads_the_exported_urdf() {
     child.stdin.take().expect("a pipe").write_all(text.as_bytes()).expect("somebody who reads");
     let output = child.wait_with_output().expect("a child");
     assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), "18");
+}
+
+/// MuJoCo loads every robot in the box from both formats, with its joints and its mass.
+#[test]
+#[ignore = "needs Python packages: see docs/contributing.md"]
+fn mujoco_loads_every_robot_in_the_box() {
+    let program = "import json, sys, mujoco
+told = json.load(sys.stdin)
+model, urdf = (mujoco.MjModel.from_xml_string(told[key]) for key in ('mjcf', 'urdf'))
+print(json.dumps([sum(model.body_mass), model.nv, model.nu, urdf.nv]))";
+    for robot in ROBOTS {
+        let mechanism = Mechanism::from_toml(robot.mechanism_text(), "mechanism.toml").expect("a mechanism");
+        let told = json!({
+            "mjcf": mjcf_text(&mechanism, &plant_parameters(), 1e-3),
+            "urdf": urdf_text(&mechanism).expect("a robot"),
+        });
+        let mut python = python();
+        let mut child =
+            python.args(["-c", program]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("Python");
+        child.stdin.take().expect("a pipe").write_all(told.to_string().as_bytes()).expect("somebody who reads");
+        let output = child.wait_with_output().expect("a child");
+        assert!(output.status.success(), "{} is not loaded", robot.name);
+        let theirs: [f64; 4] = serde_json::from_slice(&output.stdout).expect("four numbers");
+        let joints = Joint::ALL.into_iter().filter(|joint| mechanism.has(*joint)).count() as f64;
+        assert_close(&[mechanism.mass(), 6.0 + joints, joints, joints], &theirs, robot.name);
+    }
 }
 
 fn numbers(value: &Value) -> Vec<f64> {

@@ -2,6 +2,7 @@
 
 pub mod import;
 pub mod mjcf;
+mod mjcf_bodies;
 pub mod scaled_parameters;
 mod side_name;
 pub mod urdf;

@@ -1,8 +1,9 @@
 //! The mechanism as MJCF, MuJoCo's own format.
 //!
 //! A floating tree: the free joint carries the right foot, whose frame lies on the sole, so that joints 1 and 2, the
-//! contact of foot and ground, arise from contact. Joints 3 to 20 keep their names; those that meet in one point share
-//! a body, so that no body is massless. Rotors enter as `armature`. Only soles and floor collide.
+//! contact of foot and ground, arise from contact. Joints 3 to 20 keep their names. Those that meet in one point share
+//! a body, so that no moving body is massless; those that the robot does not have are left out. Rotors enter as
+//! `armature`. Only soles and floor collide.
 //!
 //! The actuators are plain torque motors, limited to the motor's torque at standstill: position servo and back-EMF
 //! belong to the drive, which `plant::Drive` or `tools/mujoco_plant` adds.
@@ -20,6 +21,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use plant::PlantParameters;
 use quick_xml::escape::escape;
 
+use crate::mjcf_bodies::MjcfBodies;
 use crate::side_name::side_name;
 use crate::urdf::equivalent_sides;
 use crate::xml_lines::{XmlLines, numbers};
@@ -35,7 +37,7 @@ const UNUSED_FRICTION: &str = "0.005 0.0001";
 pub fn mjcf_text(mechanism: &Mechanism, parameters: &PlantParameters, period: f64) -> String {
     let mut out = XmlLines::default();
     let timestep = period / f64::from(parameters.steps_per_period);
-    let friction = format!(r#"friction="{} {UNUSED_FRICTION}""#, parameters.contact.friction);
+    let friction = friction(parameters);
     out.open(format_args!(r#"mujoco model="{}""#, escape(&mechanism.name)));
     out.line(r#"<compiler angle="radian" inertiafromgeom="false" autolimits="true"/>"#);
     out.open(format_args!(
@@ -53,7 +55,7 @@ pub fn mjcf_text(mechanism: &Mechanism, parameters: &PlantParameters, period: f6
     out.line(format_args!(
         r#"<geom name="floor" type="plane" size="0 0 0.5" contype="1" conaffinity="0" condim="3" {friction} {CONTACT} material="floor" rgba="1 1 1 1"/>"#
     ));
-    body(&mut out, mechanism, parameters, Mechanism::RIGHT_FOOT, &friction);
+    body(&mut out, &MjcfBodies::of(mechanism), mechanism, parameters, Mechanism::RIGHT_FOOT);
     out.close("worldbody");
 
     out.open("actuator");
@@ -67,9 +69,13 @@ pub fn mjcf_text(mechanism: &Mechanism, parameters: &PlantParameters, period: f6
         ));
     }
     out.close("actuator");
-    sensors(&mut out);
+    sensors(&mut out, mechanism);
     out.close("mujoco");
     out.text
+}
+
+fn friction(parameters: &PlantParameters) -> String {
+    format!(r#"friction="{} {UNUSED_FRICTION}""#, parameters.contact.friction)
 }
 
 /// Textures and colours for viewers.
@@ -88,12 +94,10 @@ fn appearance(out: &mut XmlLines) {
     out.close("default");
 }
 
-/// The body of a link that weighs something, with the joints that lead to it and all that it carries.
-fn body(out: &mut XmlLines, mechanism: &Mechanism, parameters: &PlantParameters, link: Joint, friction: &str) {
+/// A body with the joints that lead to it and all that it carries.
+fn body(out: &mut XmlLines, bodies: &MjcfBodies, mechanism: &Mechanism, parameters: &PlantParameters, link: Joint) {
     let root = Mechanism::RIGHT_FOOT;
-    let joints = joints_of(mechanism, link);
-    let origin = |joint: &Joint| mechanism.links[*joint].origin;
-    let place = if link == root { Vector3::zeros() } else { place_on_parent(mechanism, link) };
+    let place = if link == root { Vector3::zeros() } else { bodies.place_of(link) };
     out.open(format_args!(
         r#"body name="{}" pos="{}""#,
         link.link_name().unwrap_or(link.name()),
@@ -102,49 +106,27 @@ fn body(out: &mut XmlLines, mechanism: &Mechanism, parameters: &PlantParameters,
     if link == root {
         out.line(r#"<freejoint name="right_sole"/>"#);
     } else {
-        for (index, joint) in joints.iter().enumerate() {
-            let back = -joints[index + 1..].iter().map(origin).sum::<Vector3<f64>>();
-            hinge(out, mechanism, *joint, back);
+        for (joint, place) in bodies.hinges_of(link) {
+            hinge(out, mechanism, joint, place);
         }
     }
-    inertial(out, &mechanism.links[link].body);
-    if let Some(side) = Side::BOTH.into_iter().find(|side| mechanism.foot(*side) == link) {
-        foot(out, mechanism, side, friction);
-    } else {
-        appearance_of(out, mechanism, link);
+    let own = bodies.mass_of(link);
+    if own.mass > 0.0 {
+        inertial(out, &own);
     }
-    if link == Joint::WaistRoll {
+    if let Some(side) = Side::BOTH.into_iter().find(|side| mechanism.foot(*side) == link) {
+        foot(out, mechanism, side, parameters);
+    } else {
+        appearance_of(out, bodies, link);
+    }
+    if link == Mechanism::TRUNK {
         out.line(r#"<site name="imu"/>"#);
         payload(out, parameters);
     }
-    for child in carried_by(mechanism, link) {
-        body(out, mechanism, parameters, child, friction);
+    for child in bodies.carried_by(link) {
+        body(out, bodies, mechanism, parameters, child);
     }
     out.close("body");
-}
-
-/// The links with mass that are mounted on a link, directly or through massless links.
-fn carried_by(mechanism: &Mechanism, link: Joint) -> impl Iterator<Item = Joint> {
-    let weighs = |joint: &Joint| mechanism.links[*joint].body.mass > 0.0;
-    let hangs_on = move |joint: &Joint| mechanism.links[joints_of(mechanism, *joint)[0]].parent == Some(link);
-    Joint::ALL.into_iter().filter(weighs).filter(hangs_on)
-}
-
-/// The joints between a link and the next link below it that has mass, the lowest first.
-fn joints_of(mechanism: &Mechanism, link: Joint) -> Vec<Joint> {
-    let mut joints = vec![link];
-    while let Some(parent) =
-        mechanism.links[joints[0]].parent.filter(|parent| mechanism.links[*parent].body.mass == 0.0)
-    {
-        joints.insert(0, parent);
-    }
-    joints
-}
-
-/// Origin of a link's frame in the frame of the body that carries it (m): at zero angles all frames are parallel, and
-/// origins add up along the massless links.
-fn place_on_parent(mechanism: &Mechanism, link: Joint) -> Vector3<f64> {
-    joints_of(mechanism, link).iter().map(|joint| mechanism.links[*joint].origin).sum()
 }
 
 fn hinge(out: &mut XmlLines, mechanism: &Mechanism, joint: Joint, place: Vector3<f64>) {
@@ -174,26 +156,27 @@ fn inertial(out: &mut XmlLines, body: &Body) {
 
 /// Visual shape of a link: rods to the joints that it carries, and the box of its mass and moments if it carries none
 /// or several.
-fn appearance_of(out: &mut XmlLines, mechanism: &Mechanism, link: Joint) {
+fn appearance_of(out: &mut XmlLines, bodies: &MjcfBodies, link: Joint) {
     // There is no rod to a joint at the same point.
-    let ends = carried_by(mechanism, link).map(|child| place_on_parent(mechanism, child));
+    let ends = bodies.carried_by(link).map(|child| bodies.place_of(child));
     let ends: Vec<_> = ends.filter(|end| end.norm() > 0.0).collect();
     for end in &ends {
         out.line(format_args!(r#"<geom type="capsule" fromto="0 0 0 {}" size="0.045"/>"#, numbers(end.as_slice())));
     }
-    if ends.len() != 1 {
-        let Body { com, .. } = mechanism.links[link].body;
-        let half = equivalent_sides(&mechanism.links[link].body) / 2.0;
+    let body = bodies.mass_of(link);
+    if ends.len() != 1 && body.mass > 0.0 {
+        let half = equivalent_sides(&body) / 2.0;
         out.line(format_args!(
             r#"<geom type="box" pos="{}" size="{}"/>"#,
-            numbers(com.as_slice()),
+            numbers(body.com.as_slice()),
             numbers(half.as_slice())
         ));
     }
 }
 
 /// Writes the foot as a box on its sole, half as high as the ankle.
-fn foot(out: &mut XmlLines, mechanism: &Mechanism, side: Side, friction: &str) {
+fn foot(out: &mut XmlLines, mechanism: &Mechanism, side: Side, parameters: &PlantParameters) {
+    let friction = friction(parameters);
     let sole = mechanism.sole;
     let height = sole.ankle_height / 2.0;
     let at = mechanism.sole_in_foot(side);
@@ -220,10 +203,10 @@ fn payload(out: &mut XmlLines, parameters: &PlantParameters) {
 }
 
 /// Writes the sensors: joint angles and rates, the trunk's orientation and rate, and the floor's force on each foot.
-fn sensors(out: &mut XmlLines) {
+fn sensors(out: &mut XmlLines, mechanism: &Mechanism) {
     out.open("sensor");
     for (kind, suffix) in [("jointpos", "angle"), ("jointvel", "rate")] {
-        for joint in Joint::ALL.into_iter().filter(|joint| joint.is_powered()) {
+        for joint in Joint::ALL.into_iter().filter(|joint| mechanism.has(*joint)) {
             let name = joint.name();
             out.line(format_args!(r#"<{kind} name="{name}_{suffix}" joint="{name}"/>"#));
         }
@@ -252,8 +235,22 @@ mod tests {
     }
 
     fn mechanism() -> Mechanism {
-        Mechanism::load(format!("{}/../../config/mechanism.toml", env!("CARGO_MANIFEST_DIR")))
+        load("mechanism.toml")
+    }
+
+    fn load(file: &str) -> Mechanism {
+        Mechanism::load(format!("{}/../../config/{file}", env!("CARGO_MANIFEST_DIR")))
             .unwrap_or_else(|errors| panic!("{errors}"))
+    }
+
+    /// The robots in the box with their names.
+    fn robots() -> Vec<(String, Mechanism)> {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/robots");
+        let names = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let named = names.map(|name| (name.clone(), load(&format!("robots/{name}/mechanism.toml"))));
+        let robots: Vec<_> = named.chain([("paper".to_owned(), mechanism())]).collect();
+        assert_eq!(robots.len(), 10);
+        robots
     }
 
     /// All values of an attribute in a text.
@@ -264,36 +261,48 @@ mod tests {
 
     #[test]
     fn mjcf_model_has_the_mass_of_the_mechanism() {
-        let mechanism = mechanism();
-        let text = mjcf_text(&mechanism, &plant_parameters(), 1e-3);
-        let mass: f64 = values(&text, "mass").iter().map(|mass| mass.parse::<f64>().unwrap()).sum();
-        assert!((mass - mechanism.mass()).abs() < 1e-12, "{mass}");
-        assert_eq!(values(&text, "mass").len(), 12, "no massless bodies");
+        for (name, mechanism) in robots() {
+            let text = mjcf_text(&mechanism, &plant_parameters(), 1e-3);
+            let mass: f64 = values(&text, "mass").iter().map(|mass| mass.parse::<f64>().unwrap()).sum();
+            assert!((mass - mechanism.mass()).abs() < 1e-12, "{name}: {mass}");
+        }
+        assert_eq!(values(&mjcf_text(&mechanism(), &plant_parameters(), 1e-3), "mass").len(), 12, "no massless bodies");
     }
 
     #[test]
     fn every_powered_joint_is_there_once_and_driven() {
-        let text = mjcf_text(&mechanism(), &plant_parameters(), 1e-3);
-        for joint in Joint::ALL {
-            let count = |tag: &str| text.matches(&format!("<{tag} name=\"{}\"", joint.name())).count();
-            let expected = usize::from(joint.is_powered());
-            assert_eq!((count("joint"), count("motor")), (expected, expected), "{}", joint.name());
+        for (name, mechanism) in robots() {
+            let text = mjcf_text(&mechanism, &plant_parameters(), 1e-3);
+            for joint in Joint::ALL {
+                let count = |tag: &str| text.matches(&format!("<{tag} name=\"{}\"", joint.name())).count();
+                let sensors = text.matches(&format!(" joint=\"{}\"/>", joint.name())).count();
+                let has = usize::from(mechanism.has(joint));
+                assert_eq!((count("joint"), count("motor"), sensors), (has, has, 2 * has), "{name} {}", joint.name());
+            }
         }
     }
 
     #[test]
-    fn every_element_is_closed() {
-        let text = mjcf_text(&mechanism(), &plant_parameters(), 1e-3);
-        let mut open = Vec::new();
-        for line in text.lines().map(str::trim) {
-            let name = line.trim_matches(['<', '>', '/']).split([' ', '>']).next().unwrap();
-            match (line.starts_with("</"), line.contains("/>") || line.contains("</")) {
-                (true, _) => assert_eq!(open.pop(), Some(name)),
-                (false, true) => {}
-                (false, false) => open.push(name),
+    fn every_element_is_closed_and_every_body_has_a_name_of_its_own() {
+        for (name, mechanism) in robots() {
+            let text = mjcf_text(&mechanism, &plant_parameters(), 1e-3);
+            let mut open = Vec::new();
+            let mut bodies = Vec::new();
+            for line in text.lines().map(str::trim) {
+                let tag = line.trim_matches(['<', '>', '/']).split([' ', '>']).next().unwrap();
+                match (line.starts_with("</"), line.contains("/>") || line.contains("</")) {
+                    (true, _) => assert_eq!(open.pop(), Some(tag), "{name}"),
+                    (false, true) => {}
+                    (false, false) => open.push(tag),
+                }
+                if tag == "body" && !line.starts_with("</") {
+                    bodies.push(line.split('"').nth(1).unwrap());
+                }
             }
+            assert_eq!(open, Vec::<&str>::new(), "{name}");
+            bodies.sort_unstable();
+            assert!(bodies.windows(2).all(|pair| pair[0] != pair[1]), "{name}: {bodies:?}");
         }
-        assert_eq!(open, Vec::<&str>::new());
     }
 
     #[test]

@@ -1,15 +1,15 @@
 //! The mechanism as URDF, for viewers and other simulators.
 //!
 //! A floating tree rooted at the right foot link `right_foot`, whose frame lies on the sole: joints 1 and 2, the
-//! contact of foot and ground, are left out; joints 3 to 20 are revolute and keep their names. Links between joints
-//! that meet in one point have no mass: an element of MuJoCo's own, which others ignore, makes it add the mass that it
-//! needs there.
+//! contact of foot and ground, are left out. Joints 3 to 20 keep their names; they are revolute, or fixed where the
+//! robot does not have them. Links between joints that meet in one point have no mass: an element of MuJoCo's own,
+//! which others ignore, makes it add the mass that it needs there.
 //!
 //! Pinocchio drops the root link's mass when the base is fixed: load it there with a free-flyer.
 
 use std::convert::Infallible;
 
-use model::{Body, Joint, Link, Mechanism, Side};
+use model::{Body, Joint, Mechanism, Side};
 use nalgebra::Vector3;
 use quick_xml::escape::escape;
 
@@ -31,7 +31,7 @@ pub fn urdf_text(mechanism: &Mechanism) -> Result<String, Infallible> {
         link(&mut out, mechanism, joint);
     }
     for each in Joint::ALL.into_iter().filter(|joint| joint.is_powered()) {
-        joint(&mut out, &mechanism.links[each], each);
+        joint(&mut out, mechanism, each);
     }
     out.close("robot");
     Ok(out.text)
@@ -47,16 +47,21 @@ fn link_name(joint: Joint) -> String {
     joint.link_name().map_or_else(|| format!("{}_link", joint.name()), str::to_owned)
 }
 
-/// A joint with its range and rate; as effort the torque of its motor at standstill and full voltage.
-fn joint(out: &mut XmlLines, link: &Link, joint: Joint) {
+/// A joint with its range and rate; as effort the torque of its motor at standstill and full voltage. One that the
+/// robot does not have is fixed.
+fn joint(out: &mut XmlLines, mechanism: &Mechanism, joint: Joint) {
+    let link = &mechanism.links[joint];
+    let kind = if mechanism.has(joint) { "revolute" } else { "fixed" };
     let (lower, upper, velocity) = link.limits.map_or((0.0, 0.0, 0.0), |l| (l.angle_min, l.angle_max, l.rate_max));
     let effort = link.motor.map_or(0.0, |motor| motor.torque_max());
-    out.open(format_args!(r#"joint name="{}" type="revolute""#, joint.name()));
+    out.open(format_args!(r#"joint name="{}" type="{kind}""#, joint.name()));
     origin(out, link.origin);
     out.line(format_args!(r#"<parent link="{}"/>"#, link_name(link.parent.unwrap_or(root()))));
     out.line(format_args!(r#"<child link="{}"/>"#, link_name(joint)));
-    out.line(format_args!(r#"<axis xyz="{}"/>"#, numbers(link.axis.as_slice())));
-    out.line(format_args!(r#"<limit lower="{lower}" upper="{upper}" effort="{effort}" velocity="{velocity}"/>"#));
+    if mechanism.has(joint) {
+        out.line(format_args!(r#"<axis xyz="{}"/>"#, numbers(link.axis.as_slice())));
+        out.line(format_args!(r#"<limit lower="{lower}" upper="{upper}" effort="{effort}" velocity="{velocity}"/>"#));
+    }
     out.close("joint");
 }
 
@@ -128,6 +133,19 @@ mod tests {
         let brick = Body { mass: 2.0, com: Vector3::zeros(), inertia: moments.into(), ..Body::NONE };
         let size = equivalent_sides(&brick);
         assert!((size - Vector3::new(0.1, 0.2, 0.3)).norm() < 1e-12, "{size:?}");
+    }
+
+    #[test]
+    fn joints_that_the_robot_does_not_have_are_fixed() {
+        let mechanism =
+            Mechanism::load(format!("{}/../../config/robots/g1/mechanism.toml", env!("CARGO_MANIFEST_DIR")))
+                .unwrap_or_else(|errors| panic!("{errors}"));
+        let text = urdf_text(&mechanism).unwrap();
+        for joint in Joint::ALL.into_iter().filter(|joint| joint.is_powered()) {
+            let kind = if mechanism.has(joint) { "revolute" } else { "fixed" };
+            assert!(text.contains(&format!("<joint name=\"{}\" type=\"{kind}\">", joint.name())), "{}", joint.name());
+        }
+        assert!(!mechanism.has(Joint::LeftElbow));
     }
 
     #[test]

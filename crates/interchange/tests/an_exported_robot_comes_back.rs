@@ -82,6 +82,22 @@ fn urdf_rooted_at_the_pelvis_imports_to_the_same_mechanism() {
     is_ours(&imported, |joint| joint.name().to_string());
 }
 
+/// A mechanism's waist rolls as far to the right as to the left.
+#[test]
+fn waist_that_rolls_farther_to_one_side_rolls_as_far_as_to_both() {
+    let mut robot = urdf(&mechanism());
+    joint(&mut robot, "waist_roll").child_mut("limit").set("upper", 0.3);
+    let imported = read(&robot, &map()).unwrap_or_else(|error| panic!("{error}"));
+    let taken = Mechanism::from_toml(&imported.text, "mechanism.toml").unwrap_or_else(|error| panic!("{error}"));
+    let limits = taken.links[Joint::WaistRoll].limits.expect("a waist");
+    assert!((limits.angle_min + 0.3).abs() < 1e-9 && (limits.angle_max - 0.3).abs() < 1e-9, "{limits:?}");
+    assert!(imported.lines.iter().any(|line| line.starts_with("waist_roll: range -17.2° to 17.2°")));
+
+    joint(&mut robot, "waist_roll").child_mut("limit").set("lower", 0.0);
+    let refused = read(&robot, &map()).expect_err("it rolls to one side").to_string();
+    assert!(refused.contains("waist_roll: must move to both sides"), "{refused}");
+}
+
 #[test]
 fn urdf_with_other_names_order_and_frames_imports_to_the_same_mechanism() {
     let ours = mechanism();

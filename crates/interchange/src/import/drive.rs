@@ -22,6 +22,8 @@ const EFFORT_LARGE: f64 = 5.0;
 const EFFORT_MAX: f64 = 1e5;
 /// Beyond this an angle of a URDF cannot be meant in radians.
 const ANGLE_MAX: f64 = 1.01 * std::f64::consts::TAU;
+/// A smaller range is none (rad).
+const RANGE_MIN: f64 = 1.75e-4;
 /// Standard gravity (m/s²).
 const GRAVITY: f64 = 9.80665;
 
@@ -89,6 +91,10 @@ pub(super) fn drive(
         }
         (None, _) => checked_range(limit.lower, limit.upper)?,
     };
+    if range[1] - range[0] < RANGE_MIN {
+        let [low, high] = range.map(f64::to_degrees);
+        return Err(format!("must have a range of at least 0.01°; it has {low} to {high}°: give range_deg in the map"));
+    }
     if map.range.is_none() && joint.kind == JointKind::Revolute && !limit.complete {
         notes.add("the URDF tells but one end of the range; the other one is 0".to_string(), &joint.name);
     }

@@ -42,6 +42,8 @@ pub(super) struct MapJoint {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct MapMotor(pub [f64; 5]);
 
+/// Largest inertia of a rotor at its joint, as in a mechanism file (kg·m²).
+const REFLECTED_INERTIA_MAX: f64 = 100.0;
 /// Keys of a motor's table, each with the smallest and largest value.
 pub(super) const MOTOR_KEYS: [(&str, f64, f64); 5] = [
     ("resistance_ohm", 1e-3, 1e4),
@@ -103,7 +105,17 @@ fn refuse_old_keys(root: &Table) {
 }
 
 fn read_motor(table: &Table) -> MapMotor {
-    MapMotor(MOTOR_KEYS.map(|(key, min, max)| table.number(key).between(min, max)))
+    let motor = MapMotor(MOTOR_KEYS.map(|(key, min, max)| table.number(key).between(min, max)));
+    let [_, _, rotor, gear_ratio, _] = motor.0;
+    let reflected = rotor * gear_ratio * gear_ratio;
+    if reflected > REFLECTED_INERTIA_MAX {
+        let must = format!(
+            "must be smaller: times gear_ratio² it is {reflected:.0} kg·m² at the joint, and may be at most \
+             {REFLECTED_INERTIA_MAX}"
+        );
+        table.refuse("rotor_inertia_kg_m2", &must);
+    }
+    motor
 }
 
 fn read_joint(table: &Table, motors: &[(String, MapMotor)], taken: &mut Taken) -> MapJoint {

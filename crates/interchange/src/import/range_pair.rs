@@ -43,7 +43,7 @@ pub(super) fn mean(
         ));
         taken
     } else {
-        if shared[0] >= shared[1] {
+        if is_empty(shared) {
             let (own, image) = (words(own), words(image));
             errors.note(format!("{name}: right and left share no range: right {own}, left, mirrored, {image}"));
         } else if !near_exactly(own, image) {
@@ -65,6 +65,23 @@ pub(super) fn mean(
         errors.note(format!("{name}: right and left must have the same motor in the map, or both none"));
     }
     JointDrive { range, rate_max, effort, motor: right.motor }
+}
+
+/// The part of a range in the middle of the robot that is the same to both sides.
+pub(super) fn of_both_sides(own: [f64; 2], name: &str, errors: &mut FileErrors, lines: &mut Vec<String>) -> [f64; 2] {
+    let shared = [own[0].max(-own[1]), own[1].min(-own[0])];
+    let words = |[low, high]: [f64; 2]| format!("{:.1}° to {:.1}°", low.to_degrees(), high.to_degrees());
+    if is_empty(shared) {
+        errors.note(format!("{name}: must move to both sides; its range is {}", words(own)));
+    } else if !near_exactly(own, shared) {
+        lines.push(format!("{name}: range {}, the same to both sides (told: {})", words(shared), words(own)));
+    }
+    shared
+}
+
+/// Whether nothing remains of a range but rounding.
+fn is_empty([low, high]: [f64; 2]) -> bool {
+    high - low < ROUNDING
 }
 
 fn near_exactly(a: [f64; 2], b: [f64; 2]) -> bool {

@@ -57,6 +57,9 @@ pub(super) fn symmetrise(biped: &mut Biped, robot: &UrdfRobot, errors: &mut File
             (hinge, axis, name)
         }) {
             middle_hinge(hinge, axis, &name, &mut changes);
+            if axis == 0 {
+                hinge.drive.range = range_pair::of_both_sides(hinge.drive.range, &name, errors, lines);
+            }
         }
     }
     changes.lines(lines);
