@@ -188,8 +188,7 @@ impl<'b> Originals<'b> {
                 run("replay", &[&file]);
             }
             Some("robot.urdf" | "map.toml") => {
-                let parameters = self.base.join("config");
-                run("import --out robot --map", &[&map, Path::new("--parameters"), &parameters, &urdf]);
+                run("import --out robot --map", &[&map, &urdf]);
             }
             _ => {
                 let is_good = run("check", &[]);
@@ -297,7 +296,7 @@ fn map() -> String {
         .to_owned();
     for joint in Joint::ALL.into_iter().filter(|joint| joint.is_powered()) {
         let name = joint.name();
-        map += &format!("[joint.{name}]\nurdf = \"{name}\"\nmotor = \"all\"\nstraight_deg = 0\n");
+        map += &format!("[joint.{name}]\nurdf = \"{name}\"\nmotor = \"all\"\n");
     }
     map
 }
