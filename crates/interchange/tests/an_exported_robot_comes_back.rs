@@ -94,7 +94,7 @@ fn waist_that_rolls_farther_to_one_side_rolls_as_far_as_to_both() {
     assert!(imported.lines.iter().any(|line| line.starts_with("waist_roll: range -17.2° to 17.2°")));
 
     joint(&mut robot, "waist_roll").child_mut("limit").set("lower", 0.0);
-    let refused = read(&robot, &map()).expect_err("it rolls to one side").to_string();
+    let refused = read(&robot, &map()).expect_err("it rolls to one side");
     assert!(refused.contains("waist_roll: must move to both sides"), "{refused}");
 }
 
