@@ -2,7 +2,7 @@
 
 use controller::Tick;
 use gait::Limits;
-use interface::{GaitChange, Intent, Mode};
+use interface::{GaitChange, Intent, Mode, Verdict};
 use rand::{Rng, rngs::StdRng};
 
 use crate::walking::Walking;
@@ -111,7 +111,14 @@ impl Sequence<'_> {
     fn start(&mut self) -> Result<(), Trouble> {
         let in_place = self.random.random_range(0..4) == 0;
         let (intent, mode) = if in_place { (Intent::InPlace, Mode::InPlace) } else { (Intent::Walk, Mode::Walking) };
-        let report = self.ask(GaitChange::default(), Some(intent), "a start")?;
+        let mut report = self.ask(GaitChange::default(), Some(intent), "a start")?;
+        if report.reply.is_some_and(|reply| reply.verdict == Verdict::Refused) {
+            // A stop that cannot be taken back in stride: from the stand to which it leads the robot starts.
+            self.until(TO_STAND_MAX, "refused to start, not standing yet", |report| {
+                matches!(report.report.mode, Mode::Standing | Mode::Holding)
+            })?;
+            report = self.ask(GaitChange::default(), Some(intent), "a start from the stand")?;
+        }
         let (began, stood_in) = (self.walking.time(), report.report.half_step.index);
         // A stop that was too late to take back ends in a stand first.
         let patience = TO_STAND_MAX + TO_WALK_MAX;
