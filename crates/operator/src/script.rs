@@ -60,6 +60,10 @@ struct Line {
 const EXAMPLE: &str = r#"write e.g. {"t":1.5,"turn_deg":10,"speed":1.2,"extension_deg":0,"intent":"walk"}"#;
 /// Latest time (s): longer than anyone walks, so that a later one is a mistake of unit.
 const TIME_MAX: f64 = 1e6;
+/// Most wrong lines of a script that are told.
+const ERRORS_MAX: usize = 100;
+/// Most lines of a whole script.
+const LINES_MAX: u64 = 1_000_000;
 
 impl Reader {
     /// A reader before the first line of a file with this name.
@@ -92,7 +96,8 @@ impl Reader {
     /// Reads a whole script.
     ///
     /// # Errors
-    /// Every line that is no request, or that the input ends with an error.
+    /// Every line that is no request, up to a hundred, that the input ends with an error, or that it has more than a
+    /// million lines.
     pub fn read_all(name: impl Into<String>, input: impl BufRead) -> Result<Vec<TimedRequest>, Vec<ScriptError>> {
         let mut reader = Self::new(name);
         let (mut steps, mut errors) = (Vec::new(), Vec::new());
@@ -109,6 +114,17 @@ impl Reader {
                 None => {}
                 Some(Ok(step)) => steps.push(step),
                 Some(Err(error)) => errors.push(error),
+            }
+            let problem = if errors.len() == ERRORS_MAX {
+                Some(format!("the {ERRORS_MAX}th wrong line; what follows is not read"))
+            } else if reader.line > LINES_MAX {
+                Some(format!("it has more than {LINES_MAX} lines; what follows is not read"))
+            } else {
+                None
+            };
+            if let Some(problem) = problem {
+                errors.push(ScriptError { name: reader.name.clone(), line: reader.line, problem });
+                break;
             }
         }
         if errors.is_empty() { Ok(steps) } else { Err(errors) }
@@ -219,6 +235,14 @@ mod tests {
         assert!(texts[0].starts_with("f:3: not UTF-8 (byte 11 of the line); write e.g. {"), "{texts:?}");
         assert!(texts[1].starts_with("f:4: not a JSON object"), "{texts:?}");
         assert_eq!(texts.len(), 2, "{texts:?}");
+    }
+
+    #[test]
+    fn a_script_of_nothing_but_wrong_lines_is_read_no_further_than_a_hundred() {
+        let errors = Reader::read_all("f", "[[push]]\n\n".repeat(100_000).as_bytes()).unwrap_err();
+        assert_eq!(errors.len(), ERRORS_MAX + 1);
+        let last = errors.last().map(ToString::to_string);
+        assert_eq!(last.as_deref(), Some("f:199: the 100th wrong line; what follows is not read"));
     }
 
     #[test]
