@@ -12,6 +12,7 @@ mod error;
 mod fitted;
 mod fourier;
 mod gait_recording;
+mod gauss_newton;
 mod jet;
 mod leg_motion;
 mod leg_path;

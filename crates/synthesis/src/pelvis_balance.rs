@@ -7,9 +7,10 @@
 
 use dynamics::{NewtonEuler, Tree};
 use model::{GRAVITY, JointVector, Motion};
-use nalgebra::{DMatrix, DVector, Vector2, Vector3};
+use nalgebra::{DMatrix, Vector2, Vector3};
 
 use crate::SynthesisError;
+use crate::gauss_newton::minimise;
 use crate::jet::{Jet, PointMotion};
 use crate::limbs::Limbs;
 use crate::spline::SplineBasis;
@@ -18,8 +19,6 @@ use crate::spline::SplineBasis;
 const COEFFICIENTS: usize = 32;
 /// Unknowns: both directions, ahead and to the left.
 const UNKNOWNS: usize = 2 * COEFFICIENTS;
-/// Most Gauss–Newton steps.
-const ITERATIONS_MAX: usize = 30;
 /// Largest change of a coefficient at which the iteration has converged (m).
 const SETTLED: f64 = 1e-10;
 /// Steps of the central differences: of position (m), velocity (m/s), and acceleration (m/s²).
@@ -52,48 +51,22 @@ impl PelvisShift {
 /// A leg is too short for the path, or [`SynthesisError::NotConverged`].
 pub(crate) fn balance_pelvis(tree: &Tree, limbs: &Limbs) -> Result<PelvisShift, SynthesisError> {
     let basis = SplineBasis::new(COEFFICIENTS);
-    let ends = end_conditions(&basis);
     let mut shift = PelvisShift { basis, coefficients: vec![0.0; UNKNOWNS], iterations: 0 };
+    let mut coefficients = shift.coefficients.clone();
     let mut dynamics = NewtonEuler::default();
-    let mut change = f64::INFINITY;
-
-    while shift.iterations < ITERATIONS_MAX {
-        // Minimise |r + J·δ|² under ends·(x + δ) = 0: the Karush–Kuhn–Tucker system.
-        let size = UNKNOWNS + ends.nrows();
-        let mut matrix = DMatrix::zeros(size, size);
-        let mut right = DVector::zeros(size);
+    shift.iterations = minimise(&mut coefficients, &end_conditions(&basis), SETTLED, |coefficients| {
+        shift.coefficients.copy_from_slice(coefficients);
         let motions = limbs.motions(|progress| shift.at(progress))?;
-        for (point, (progress, motion)) in motions.iter().enumerate() {
+        let residuals = motions.iter().enumerate().map(|(point, (progress, motion))| {
             let offset = moment_per_weight(&mut dynamics, tree, motion);
             let here = shift.at(*progress);
             let by_motion = slopes_by_motion(&mut dynamics, tree, limbs, point, &here, &motion.angles)?;
-            let slopes = slopes_by_coefficient(&by_motion, &basis, *progress);
-            for &(row, slope) in &slopes {
-                right[row] -= slope.dot(&offset);
-                for &(column, other) in &slopes {
-                    matrix[(row, column)] += slope.dot(&other);
-                }
-            }
-        }
-        for (index, condition) in ends.row_iter().enumerate() {
-            for (column, &weight) in condition.iter().enumerate() {
-                matrix[(UNKNOWNS + index, column)] = weight;
-                matrix[(column, UNKNOWNS + index)] = weight;
-                right[UNKNOWNS + index] -= weight * shift.coefficients[column];
-            }
-        }
-        let Some(step) = matrix.lu().solve(&right) else { break };
-        shift.iterations += 1;
-        change = 0.0;
-        for (coefficient, step) in shift.coefficients.iter_mut().zip(step.iter()) {
-            *coefficient += step;
-            change = change.max(step.abs());
-        }
-        if change < SETTLED {
-            return Ok(shift);
-        }
-    }
-    Err(SynthesisError::NotConverged { iterations: shift.iterations, change })
+            Ok((offset, slopes_by_coefficient(&by_motion, &basis, *progress)))
+        });
+        residuals.collect()
+    })?;
+    shift.coefficients = coefficients;
+    Ok(shift)
 }
 
 /// The ground's moment about O per weight, (−My, Mx)/(M·g) (m).

@@ -6,9 +6,10 @@
 
 use dynamics::{Tree, ZmpJacobian};
 use model::{Joint, Mirror, Motion};
-use nalgebra::{DMatrix, DVector, Vector2};
+use nalgebra::{DMatrix, Vector2};
 
 use crate::SynthesisError;
+use crate::gauss_newton::minimise;
 use crate::jet::Jet;
 use crate::spline::SplineBasis;
 
@@ -18,8 +19,6 @@ pub(crate) const TRUNK_JOINTS: [Joint; 2] = [Joint::WaistPitch, Joint::WaistRoll
 /// Coefficients of each trunk joint's spline: for a recorded gait 14 leave the ZMP up to 2 mm from O, 32 a few
 /// hundredths of that.
 const COEFFICIENTS: usize = 32;
-/// Most Gauss–Newton steps.
-const ITERATIONS_MAX: usize = 30;
 /// Largest change of a coefficient at which the iteration has converged (rad).
 const SETTLED: f64 = 1e-11;
 
@@ -56,47 +55,21 @@ pub(crate) fn balance_trunk(
 ) -> Result<TrunkMotion, SynthesisError> {
     let basis = SplineBasis::new(COEFFICIENTS);
     let unknowns = TRUNK_JOINTS.len() * COEFFICIENTS;
-    let ends = end_conditions(&basis, mirror);
     let mut trunk = TrunkMotion { basis, coefficients: vec![0.0; unknowns], iterations: 0 };
+    let mut coefficients = trunk.coefficients.clone();
     let mut moments = ZmpJacobian::default();
-    let mut change = f64::INFINITY;
-
-    while trunk.iterations < ITERATIONS_MAX {
-        // Minimise |r + J·δ|² under ends·(x + δ) = 0: the Karush–Kuhn–Tucker system.
-        let size = unknowns + ends.nrows();
-        let mut matrix = DMatrix::zeros(size, size);
-        let mut right = DVector::zeros(size);
-        for (progress, motion) in points {
+    trunk.iterations = minimise(&mut coefficients, &end_conditions(&basis, mirror), SETTLED, |coefficients| {
+        trunk.coefficients.copy_from_slice(coefficients);
+        let residuals = points.iter().map(|(progress, motion)| {
             let mut motion = *motion;
             trunk.apply(*progress, &mut motion);
             let offset = moments.moment_per_weight(tree, &motion);
-            let slopes = slopes_by_coefficient(&moments, &basis, *progress);
-            for &(row, slope) in &slopes {
-                right[row] -= slope.dot(&offset);
-                for &(column, other) in &slopes {
-                    matrix[(row, column)] += slope.dot(&other);
-                }
-            }
-        }
-        for (index, condition) in ends.row_iter().enumerate() {
-            for (column, &weight) in condition.iter().enumerate() {
-                matrix[(unknowns + index, column)] = weight;
-                matrix[(column, unknowns + index)] = weight;
-                right[unknowns + index] -= weight * trunk.coefficients[column];
-            }
-        }
-        let Some(step) = matrix.lu().solve(&right) else { break };
-        trunk.iterations += 1;
-        change = 0.0;
-        for (coefficient, step) in trunk.coefficients.iter_mut().zip(step.iter()) {
-            *coefficient += step;
-            change = change.max(step.abs());
-        }
-        if change < SETTLED {
-            return Ok(trunk);
-        }
-    }
-    Err(SynthesisError::NotConverged { iterations: trunk.iterations, change })
+            (offset, slopes_by_coefficient(&moments, &basis, *progress))
+        });
+        Ok(residuals.collect())
+    })?;
+    trunk.coefficients = coefficients;
+    Ok(trunk)
 }
 
 /// For each trunk joint, angle and rate: (end − sign·start)·coefficients = 0.
