@@ -138,14 +138,14 @@ mod tests {
     #[test]
     fn joints_that_the_robot_does_not_have_are_fixed() {
         let mechanism =
-            Mechanism::load(format!("{}/../../config/robots/g1/mechanism.toml", env!("CARGO_MANIFEST_DIR")))
+            Mechanism::load(format!("{}/../../config/robots/op3/mechanism.toml", env!("CARGO_MANIFEST_DIR")))
                 .unwrap_or_else(|errors| panic!("{errors}"));
         let text = urdf_text(&mechanism).unwrap();
         for joint in Joint::ALL.into_iter().filter(|joint| joint.is_powered()) {
             let kind = if mechanism.has(joint) { "revolute" } else { "fixed" };
             assert!(text.contains(&format!("<joint name=\"{}\" type=\"{kind}\">", joint.name())), "{}", joint.name());
         }
-        assert!(!mechanism.has(Joint::LeftElbow));
+        assert!(mechanism.has(Joint::LeftShoulder) && !mechanism.has(Joint::LeftElbow));
     }
 
     #[test]

@@ -14,7 +14,7 @@ use support::walker::{in_joint, in_link, walker};
 #[test]
 fn walker_needs_no_map_and_comes_in_exactly() {
     let imported = taken(&walker(), "");
-    same_robot(&walker(), &imported, 0.0, Allowed { place: 1e-9, com: 1e-9 });
+    same_robot(&walker(), &imported, 0.0, Allowed { place: 1e-9, arms: 1e-9, com: 1e-9 });
     is_symmetric(&imported);
     let file: toml::Table = imported.text.parse().unwrap();
     let sole = |key: &str| file["sole"][key].as_float().unwrap();
@@ -209,11 +209,14 @@ fn limits_matter_where_joints_are_used() {
     let endless = walker().replace("_yaw\" type=\"revolute\"", "_yaw\" type=\"continuous\"");
     let file: toml::Table = taken(&endless, "").text.parse().unwrap();
     assert_eq!(file["joint"]["left_hip_yaw"]["range_deg"].to_string(), "[-180, 180]");
-    // a range without zero holds an arm at its nearer end
-    let arms = walker().replace("lower=\"-3\" upper=\"1\"", "lower=\"0.5\" upper=\"1\"");
+    // a range without zero holds an arm that does not swing at its nearer end
+    let arms = ["right_shoulder", "left_shoulder"].iter().fold(walker(), |urdf, joint| {
+        let urdf = in_joint(&urdf, joint, "0 1 0", "0 0 1");
+        in_joint(&urdf, joint, "lower=\"-3\" upper=\"1\"", "lower=\"0.5\" upper=\"1\"")
+    });
     let imported = taken(&arms, "");
     told(&imported, "right_shoulder at 28.65°");
-    same_robot(&arms, &imported, 0.0, Allowed { place: 1e-9, com: 1e-9 });
+    same_robot(&arms, &imported, 0.0, Allowed { place: 1e-9, arms: 1e-9, com: 1e-9 });
 }
 
 #[test]
@@ -298,7 +301,7 @@ fn robots_that_are_no_such_bipeds_are_refused_with_what_was_found() {
     }
     refused(&toes, &["found 7 joints in each leg", "right_toe (about y)", "[[held]]"]);
     let held = "[[held]]\nurdf = \"left_toe\"\n[[held]]\nurdf = \"right_toe\"\n";
-    same_robot(&toes, &taken(&toes, held), 0.0, Allowed { place: 1e-9, com: 1e-9 });
+    same_robot(&toes, &taken(&toes, held), 0.0, Allowed { place: 1e-9, arms: 1e-9, com: 1e-9 });
     refused(&walker().replace("xyz=\"0 0 1\"", "xyz=\"1 0 0\""), &["the first three must be the hip's"]);
     let turned = |urdf: &str, joint: &str, pitch: f64| {
         let origin = format!("<origin rpy=\"0 {pitch} 0\"");
@@ -335,7 +338,7 @@ fn map_may_say_otherwise() {
                [joint.left_knee]\nrange_deg = [-2, 100]\nrate_max_deg_per_s = 300\neffort_n_m = 20\n\
                [[held]]\nurdf = \"left_shoulder\"\nat_deg = -30\n[[held]]\nurdf = \"right_shoulder\"\nat_deg = -30\n";
     let imported = taken(&walker(), map);
-    same_robot(&walker(), &imported, 0.0, Allowed { place: 1e-9, com: 1e-9 });
+    same_robot(&walker(), &imported, 0.0, Allowed { place: 1e-9, arms: 1e-9, com: 1e-9 });
     let file: toml::Table = imported.text.parse().unwrap();
     assert_eq!(file["joint"]["left_knee"]["range_deg"].to_string(), "[-2, 100]");
     assert_eq!(file["joint"]["right_knee"]["range_deg"].to_string(), "[-100, 2]");

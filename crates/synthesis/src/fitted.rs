@@ -3,6 +3,7 @@
 use gait::NominalRow;
 use model::{Joint, Mechanism};
 
+use crate::arms;
 use crate::{Balance, LegPattern, Synthesis, SynthesisError, SynthesisParameters, synthesize};
 
 /// Largest share of a torque or rate limit that a half-step may need: the rest is for requests and for feedback.
@@ -13,6 +14,8 @@ const HIPS_HIGHER: [f64; 3] = [0.0, 0.01, 0.02];
 const SHORTER: [f64; 4] = [1.0, 0.85, 0.7, 0.5];
 const LONGER_LASTING: [f64; 3] = [1.0, 1.15, 1.3];
 const SWAY: [f64; 3] = [1.0, 0.5, 0.0];
+/// Shares of the arms' swing that are tried, the largest that shoulders and elbows can drive.
+const ARM_SWING: [f64; 4] = [1.0, 0.75, 0.5, 0.25];
 /// Shares of the leg that the pelvis is tried behind the middle between the feet, so that the trunk is upright.
 const SETBACK_STEP: f64 = 0.02;
 /// A trunk that leans by no more counts as upright (rad).
@@ -35,7 +38,8 @@ pub struct FittedHalfStep {
 /// # Errors
 /// The default's [`SynthesisError`] if no half-step within the joints' ranges is found.
 pub fn fit_half_step(mechanism: &Mechanism) -> Result<FittedHalfStep, SynthesisError> {
-    let default = upright(mechanism, SynthesisParameters::for_robot(mechanism));
+    let in_proportion = arms::within_ranges(mechanism, SynthesisParameters::for_robot(mechanism));
+    let default = upright(mechanism, with_driven_arms(mechanism, in_proportion));
     let first = try_out(mechanism, default);
     let mut candidates = Vec::new();
     let is_trunk = matches!(default.balance.of(mechanism), Ok(Balance::Trunk));
@@ -54,6 +58,17 @@ pub fn fit_half_step(mechanism: &Mechanism) -> Result<FittedHalfStep, SynthesisE
         }
     }
     best.map_or(first, Ok)
+}
+
+/// The parameters with the arms' swing so small that shoulders and elbows can drive it.
+fn with_driven_arms(mechanism: &Mechanism, parameters: SynthesisParameters) -> SynthesisParameters {
+    let swung = ARM_SWING.map(|share| SynthesisParameters { arm_swing: share * parameters.arm_swing, ..parameters });
+    let is_driven = |tried: &SynthesisParameters| match synthesize_free(mechanism, tried) {
+        Ok(found) => load(mechanism, &found.table.rows, Joint::is_in_arm).0 <= LOAD_MAX,
+        Err(SynthesisError::RateTooHigh { joint, .. }) => !joint.is_in_arm(),
+        Err(_) => true,
+    };
+    swung.into_iter().find(is_driven).unwrap_or(SynthesisParameters { arm_swing: 0.0, ..parameters })
 }
 
 /// Changed parameters, each with how far it is from the default.
@@ -111,15 +126,15 @@ fn synthesize_free(mechanism: &Mechanism, parameters: &SynthesisParameters) -> R
 
 fn try_out(mechanism: &Mechanism, parameters: SynthesisParameters) -> Result<FittedHalfStep, SynthesisError> {
     let synthesis = synthesize_free(mechanism, &parameters)?;
-    let load = load(mechanism, &synthesis.table.rows);
+    let load = load(mechanism, &synthesis.table.rows, |_| true);
     Ok(FittedHalfStep { parameters, synthesis, load })
 }
 
-/// The largest share of a torque or rate limit that the rows need, and at which joint.
-fn load(mechanism: &Mechanism, rows: &[NominalRow]) -> (f64, Joint) {
+/// The largest share of a torque or rate limit that the rows need of some joints, and at which of them.
+fn load(mechanism: &Mechanism, rows: &[NominalRow], of: impl Fn(Joint) -> bool) -> (f64, Joint) {
     let mut largest = (0.0, Joint::FootRoll);
     for row in rows {
-        for (joint, link) in mechanism.links.iter() {
+        for (joint, link) in mechanism.links.iter().filter(|(joint, _)| of(*joint)) {
             let (Some(limits), Some(motor)) = (link.limits, link.motor) else { continue };
             let rotor = motor.reflected_inertia() * row.motion.accelerations[joint];
             let torque = row.torque_gravity[joint] + row.torque_dynamic[joint] + rotor;
@@ -174,5 +189,22 @@ mod tests {
         let fitted = fit_half_step(&weak).unwrap();
         let before = try_out(&weak, strong.parameters).unwrap();
         assert!(fitted.load.0 < before.load.0, "{:?} {:?}", fitted.load, before.load);
+    }
+
+    #[test]
+    fn weak_or_slow_shoulders_swing_less() {
+        let drive = |effort: f64, rate: f64| {
+            let mut robot = mechanism();
+            for joint in [Joint::RightShoulder, Joint::LeftShoulder] {
+                robot.links[joint].motor = Some(model::Motor::Torque(model::TorqueSource { effort, armature: 0.0 }));
+                robot.links[joint].limits =
+                    robot.links[joint].limits.map(|own| model::JointLimits { rate_max: rate, ..own });
+            }
+            fit_half_step(&robot).unwrap().parameters
+        };
+        let (default, weak, slow) = (drive(100.0, 10.0), drive(3.5, 10.0), drive(100.0, 1.0));
+        assert_eq!(default.arm_swing, SynthesisParameters::default().arm_swing);
+        assert!(weak.arm_swing < default.arm_swing && weak.step_length == default.step_length, "{weak:?}");
+        assert!(slow.arm_swing < default.arm_swing && slow.step_length == default.step_length, "{slow:?}");
     }
 }

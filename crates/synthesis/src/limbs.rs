@@ -4,7 +4,7 @@ use dynamics::Tree;
 use model::{JointVector, LegReach, Mechanism, Motion, Side};
 use nalgebra::Vector3;
 
-use crate::arms::swing_arms;
+use crate::arms::ArmSwing;
 use crate::jet::{Jet, PointMotion};
 use crate::leg_motion::{LegEnd, first_guess, move_leg};
 use crate::leg_path::LegPath;
@@ -18,6 +18,7 @@ pub(crate) struct Limbs<'a> {
     parameters: &'a SynthesisParameters,
     points_per_interval: usize,
     reach: LegReach,
+    arms: ArmSwing,
     /// Middle between the hips, in the pelvis link's frame (m).
     middle_in_pelvis: Vector3<f64>,
     /// Origin of the left foot's link over its sole (m).
@@ -44,6 +45,7 @@ impl<'a> Limbs<'a> {
             middle_in_pelvis: right + (left - right) / 2.0,
             to_left_foot: -mechanism.sole_in_foot(Side::Left),
             reach,
+            arms: ArmSwing::new(mechanism, parameters),
         }
     }
 
@@ -113,7 +115,7 @@ impl<'a> Limbs<'a> {
                 residual: unreachable.residual,
             })?;
         }
-        swing_arms(self.mechanism, self.parameters, progress, &mut motion);
+        self.arms.apply(progress, &mut motion);
         Ok(motion)
     }
 

@@ -64,10 +64,13 @@ impl StickFigure {
                 toe: on_sole(mechanism.sole.ahead),
             }
         };
-        let arm = |shoulder: Joint, elbow: Joint| StickArm {
-            shoulder: origin(shoulder),
-            elbow: origin(elbow),
-            hand: along_com(elbow, HAND_BY_COM),
+        let arm = |shoulder: Joint, elbow: Joint| {
+            let is_straight = !mechanism.has(elbow);
+            StickArm {
+                shoulder: origin(shoulder),
+                elbow: if is_straight { along_com(shoulder, 1.0) } else { origin(elbow) },
+                hand: along_com(if is_straight { shoulder } else { elbow }, HAND_BY_COM),
+            }
         };
 
         use Joint::*;

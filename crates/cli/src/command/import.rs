@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use interchange::import::{NamedText, print_map};
+use interchange::import::{JointRole, NamedText, print_map};
+use model::Side;
 use serde::Serialize;
 
 use crate::error::CliError;
@@ -40,6 +41,9 @@ struct ImportReport {
     notes: Vec<String>,
     step_length_m: f64,
     half_step_s: f64,
+    /// How far the shoulders swing forward and backward, and the elbows are bent; `None` where arms are held.
+    arm_swing_deg: Option<f64>,
+    elbow_flexion_deg: Option<f64>,
     zmp_residual_mm: f64,
     /// Largest share of a torque or rate limit that the half-step needs, and where.
     load_share: f64,
@@ -107,13 +111,19 @@ impl ImportReport {
     fn new(robot: ImportedRobot, written: Vec<PathBuf>, folder: &Path) -> Self {
         let ImportedRobot { imported, half_step, .. } = robot;
         let (load_share, joint) = half_step.load;
+        let has = |wanted: JointRole| imported.roles.iter().any(|(role, _)| *role == wanted);
+        let parameters = half_step.parameters;
+        let arm_swing_deg = has(JointRole::Shoulder(Side::Right)).then_some(parameters.arm_swing.to_degrees());
+        let elbow_flexion_deg = has(JointRole::Elbow(Side::Right)).then_some(parameters.elbow_flexion.to_degrees());
         Self {
+            arm_swing_deg,
+            elbow_flexion_deg,
             name: imported.name,
             mass_kg: imported.mass,
             leg_m: imported.leg,
             notes: imported.lines,
-            step_length_m: half_step.parameters.step_length,
-            half_step_s: half_step.parameters.duration,
+            step_length_m: parameters.step_length,
+            half_step_s: parameters.duration,
             zmp_residual_mm: half_step.synthesis.report.residual * 1e3,
             load_share,
             load_joint: joint.name(),
@@ -135,6 +145,10 @@ impl ImportReport {
             self.load_joint,
             self.load_share * 100.0
         );
+        if let Some(swing) = self.arm_swing_deg {
+            let elbows = self.elbow_flexion_deg.map_or(String::new(), |bent| format!(", elbows bent by {bent:.0}°"));
+            text += &format!("  arms swing by {swing:.0}° forward and backward{elbows}\n");
+        }
         if self.load_share > 1.0 {
             text += &format!(
                 "  {} is too weak for any half-step that was tried: it will yield, and requests are limited\n",

@@ -22,12 +22,11 @@ pub(super) struct Hinge {
     pub drive: JointDrive,
 }
 
-/// A leg from the pelvis down.
+/// A joint of a leg or an arm, and the body beyond it, away from the trunk.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Leg {
-    pub hinges: [Hinge; 6],
-    /// The body below each joint; the last is the foot.
-    pub bodies: [LumpedBody; 6],
+pub(super) struct Segment {
+    pub hinge: Hinge,
+    pub body: LumpedBody,
 }
 
 /// The biped.
@@ -35,23 +34,25 @@ pub(super) struct Leg {
 pub(super) struct Biped {
     /// What the joints of both legs do, from the pelvis down.
     pub roles: [LegRole; 6],
-    /// Right and left leg.
-    pub legs: [Leg; 2],
+    /// Right and left leg, from the pelvis down; the last body is the foot.
+    pub legs: [[Segment; 6]; 2],
     /// The body on which the legs hang; massless where that is the trunk.
     pub pelvis: LumpedBody,
     /// The joints that pitch and roll the trunk.
     pub waist: Option<[Hinge; 2]>,
     /// Where the trunk is mounted if there is no such waist (m).
     pub mount: Vector3<f64>,
-    /// The body between the two joints of the waist, and the trunk with arms and head.
+    /// The body between the two joints of the waist, and the trunk with head and all that is held on it.
     pub middle: LumpedBody,
     pub trunk: LumpedBody,
+    /// Right and left arm, as many segments in each: upper arm and forearm, one of both together, or none.
+    pub arms: [Vec<Segment>; 2],
 }
 
 impl Biped {
     /// A joint of a leg by its role.
     pub(super) fn hinge(&self, side: usize, role: LegRole) -> &Hinge {
-        &self.legs[side].hinges[self.roles.iter().position(|own| *own == role).unwrap_or_default()]
+        &self.legs[side][self.roles.iter().position(|own| *own == role).unwrap_or_default()].hinge
     }
 
     /// The ankle of a foot: x and z of the pitch axis, y of the roll axis (m).
@@ -62,7 +63,7 @@ impl Biped {
 
     /// Mass (kg).
     pub(super) fn mass(&self) -> f64 {
-        let legs: f64 = self.legs.iter().flat_map(|leg| leg.bodies).map(|body| body.mass).sum();
-        legs + self.pelvis.mass + self.middle.mass + self.trunk.mass
+        let limbs = self.legs.iter().flatten().chain(self.arms.iter().flatten());
+        limbs.map(|segment| segment.body.mass).sum::<f64>() + self.pelvis.mass + self.middle.mass + self.trunk.mass
     }
 }

@@ -3,7 +3,7 @@
 use model::Side;
 use nalgebra::{Isometry3, Unit, Vector3};
 
-use crate::import::biped::{Biped, Hinge};
+use crate::import::biped::{Biped, Hinge, Segment};
 use crate::import::body::LumpedBody;
 use crate::import::import_map::{ImportMap, MOTOR_KEYS};
 use crate::import::role::JointRole;
@@ -48,17 +48,17 @@ pub(super) fn write(biped: &Biped, robot: &UrdfRobot, map: &ImportMap, header: &
     let foot = grid.at(floor);
     let unused = |axis: Vector3<f64>| Unit::new_unchecked(axis);
     joint(&mut text, "foot_roll", 1, "ground", &unused(Vector3::x()), ground.to(ground), Vec::new());
-    let right_foot = body(&grid, &biped.legs[0].bodies[5], foot);
+    let right_foot = body(&grid, &biped.legs[0][5].body, foot);
     joint(&mut text, "foot_pitch", 2, "foot_roll", &unused(Vector3::y()), ground.to(foot), right_foot);
 
     // Up the right leg each joint carries the body above it, down the left leg the one below it.
     let (mut parent, mut at) = ("foot_pitch".to_string(), foot);
     for (side, place) in (0..6).rev().map(|place| (0, place)).chain((0..6).map(|place| (1, place))) {
-        let hinge = &biped.legs[side].hinges[place];
+        let hinge = &biped.legs[side][place].hinge;
         let carried = match (side, place) {
             (0, 0) => &biped.pelvis,
-            (0, _) => &biped.legs[0].bodies[place - 1],
-            _ => &biped.legs[1].bodies[place],
+            (0, _) => &biped.legs[0][place - 1].body,
+            _ => &biped.legs[1][place].body,
         };
         let role = JointRole::Leg(Side::BOTH[side], biped.roles[place]);
         let here = grid.at(hinge.place);
@@ -69,7 +69,7 @@ pub(super) fn write(biped: &Biped, robot: &UrdfRobot, map: &ImportMap, header: &
     }
 
     let pelvis = JointRole::Leg(Side::Right, biped.roles[0]).name();
-    let pelvis_at = grid.at(biped.legs[0].hinges[0].place);
+    let pelvis_at = grid.at(biped.legs[0][0].hinge.place);
     let places = biped.waist.map_or([biped.mount; 2], |waist| waist.map(|hinge| hinge.place));
     let [pitch_at, roll_at] = places.map(|place| grid.at(place));
     let axes = biped.waist.map_or([unused(Vector3::y()), unused(Vector3::x())], |waist| waist.map(|hinge| hinge.axis));
@@ -79,13 +79,20 @@ pub(super) fn write(biped: &Biped, robot: &UrdfRobot, map: &ImportMap, header: &
     joint(&mut text, "waist_pitch", 15, &pelvis, &axes[0], pelvis_at.to(pitch_at), keys);
     let keys = [body(&grid, &biped.trunk, roll_at), roll_drive].concat();
     joint(&mut text, "waist_roll", 16, "waist_pitch", &axes[1], pitch_at.to(roll_at), keys);
-    for role in JointRole::all().filter(|role| role.is_in_arm()) {
-        let parent = match role {
-            JointRole::Elbow(side) => JointRole::Shoulder(side).name(),
-            _ => JointRole::WaistRoll.name(),
-        };
-        let axis = unused(Vector3::y());
-        joint(&mut text, &role.name(), role.number(), &parent, &axis, roll_at.to(roll_at), Vec::new());
+    for (side, arm) in Side::BOTH.into_iter().zip(&biped.arms) {
+        let (mut parent, mut at) = (JointRole::WaistRoll.name(), roll_at);
+        for (place, role) in JointRole::of_arm(side).into_iter().enumerate() {
+            let (here, axis, keys) = match arm.get(place) {
+                Some(Segment { hinge, body: carried }) => {
+                    let here = grid.at(hinge.place);
+                    let keys = [body(&grid, carried, here), drive(hinge, robot, map, header)].concat();
+                    (here, hinge.axis, keys)
+                }
+                None => (at, unused(Vector3::y()), Vec::new()),
+            };
+            joint(&mut text, &role.name(), role.number(), &parent, &axis, at.to(here), keys);
+            (parent, at) = (role.name(), here);
+        }
     }
     for &(index, angle) in header.held {
         let keys = [("urdf", quoted(&robot.joints[index].name)), ("at_deg", number(angle.to_degrees(), COARSE))];

@@ -5,10 +5,13 @@
 //! Whichever link the URDF's tree is rooted at, the mechanism's is rooted at the right foot.
 //!
 //! ```text
-//! URDF ─▶ links, joints ─▶ two legs ─▶ facing ─▶ roles, waist ─▶ biped ─▶ symmetry ─▶ mechanism file
+//! URDF ─▶ links, joints ─▶ two legs ─▶ facing ─▶ roles, waist, arms ─▶ biped ─▶ symmetry ─▶ mechanism file
 //! map (optional): name, sole, motors, other roles, held angles
 //! ```
 
+mod arm;
+mod arm_chain;
+mod arm_pair;
 mod biped;
 mod body;
 mod body_graph;
@@ -41,6 +44,7 @@ mod xml_tree;
 pub use file_errors::{ImportError, NamedText};
 pub use role::{JointRole, LegRole};
 
+use arm::ArmSearch;
 use body_graph::BodyGraph;
 use drive::Scale;
 use file_errors::FileErrors;
@@ -112,20 +116,39 @@ fn import_robot(robot: &UrdfRobot, map: &ImportMap, file: &str, errors: &mut Fil
     let standing = poses.seen_from(&facing.root_to_stand);
     let roles = leg_roles::find(robot, map, &legs, sides, &standing, errors);
     let waist = waist::find(robot, map, &graph, &legs, &standing, errors);
-    let mut parts = Parts { robot, map, legs: &legs, sides, roles: roles?, waist: &waist, poses: &standing };
+    let mut parts =
+        Parts { robot, map, legs: &legs, sides, roles: roles?, waist: &waist, arms: None, poses: &standing };
+    let scale = Scale { leg: parts.leg_length(), mass: robot.links.iter().map(|link| link.body.mass).sum() };
+    let trunk = waist.joints.last().map_or(legs.pelvis, |(_, trunk)| *trunk);
+
+    // and how is the rest held?
+    let posture = |used: &[(JointRole, usize)], held: &[(usize, f64)]| {
+        let mut angles = held_angles(robot, held);
+        used.iter().for_each(|(_, joint)| angles[*joint] = 0.0);
+        angles
+    };
+    let angles = posture(&parts.roles(), &map.held);
+    let poses_at = |angles: &[f64]| Poses::at(robot, angles).seen_from(&facing.root_to_stand);
+    let closed: Vec<usize> =
+        waist.joints.iter().map(|(joint, _)| *joint).chain(legs.joints.map(|leg| leg[0])).collect();
+    let chains = arm_chain::find(robot, &graph, trunk, &closed, &poses_at(&angles), scale.leg);
+    let search = ArmSearch { robot, map, graph: &graph, poses: &poses_at, leg: scale.leg };
+    let arms = arm_pair::find(search, &chains, &angles, scale, errors);
+    parts.arms = arms.as_ref().ok();
+    let of_arms = arms.iter().flatten().flat_map(|arm| &arm.held);
+    let told: Vec<(usize, f64)> = map.held.iter().chain(of_arms).copied().collect();
     let used = parts.roles();
-    let mut angles = held_angles(robot, &map.held);
-    used.iter().for_each(|(_, joint)| angles[*joint] = 0.0);
-    let poses = Poses::at(robot, &angles).seen_from(&facing.root_to_stand);
+    let angles = posture(&used, &told);
+    let poses = poses_at(&angles);
     parts.poses = &poses;
     let is_used = |joint: usize| used.iter().any(|(_, own)| *own == joint);
     let held: Vec<(usize, f64)> =
         (0..robot.joints.len()).filter(|j| robot.joints[*j].turns() && !is_used(*j)).map(|j| (j, angles[j])).collect();
     report::roles(robot, &used, sides.map(|leg| legs.joints[leg]), &waist, &mut lines);
+    report::arms(robot, &arms, &mut lines);
     report::held(robot, map, &held, &used, &mut lines);
 
     // the robot itself
-    let scale = Scale { leg: parts.leg_length(), mass: robot.links.iter().map(|link| link.body.mass).sum() };
     parts.check_straight(errors);
     let biped = parts.biped(scale, errors, &mut lines);
     plausibility::check(scale, robot, &biped.as_ref().map_or(Vec::new(), report::bodies), errors);
@@ -142,7 +165,6 @@ fn import_robot(robot: &UrdfRobot, map: &ImportMap, file: &str, errors: &mut Fil
         return None;
     }
 
-    let trunk = waist.joints.last().map_or(legs.pelvis, |(_, trunk)| *trunk);
     let of_trunk = robot.links.iter().zip(&graph.body_of).filter(|(_, body)| **body == trunk);
     let heaviest = of_trunk.max_by(|(one, _), (other, _)| one.body.mass.total_cmp(&other.body.mass));
     let header = Header {

@@ -3,7 +3,8 @@
 use model::Side;
 use nalgebra::{Unit, Vector3};
 
-use crate::import::biped::{Biped, Hinge, Leg};
+use crate::import::arm::Arm;
+use crate::import::biped::{Biped, Hinge, Segment};
 use crate::import::body::LumpedBody;
 use crate::import::body_graph::BodyGraph;
 use crate::import::drive::{self, DriveNotes, JointDrive, Scale};
@@ -32,6 +33,8 @@ pub(super) struct Parts<'p> {
     pub sides: [usize; 2],
     pub roles: [LegRole; 6],
     pub waist: &'p Waist,
+    /// Right and left arm; `None` if arms are held.
+    pub arms: Option<&'p [Arm; 2]>,
     /// Poses of the standing robot, joints without a role where they are held.
     pub poses: &'p Poses,
 }
@@ -47,8 +50,19 @@ impl Parts<'_> {
         if let Some([pitch, roll]) = self.waist.roles {
             roles.extend([(JointRole::WaistPitch, pitch), (JointRole::WaistRoll, roll)]);
         }
+        roles.extend(self.arm_joints().into_iter().flatten().map(|(role, (joint, _))| (role, joint)));
         roles.sort_by_key(|(role, _)| role.number());
         roles
+    }
+
+    /// The joints of right and left arm that have a role, from the trunk outward, each with the body behind it.
+    fn arm_joints(&self) -> [Vec<(JointRole, (usize, usize))>; 2] {
+        let joints = |side: Side| {
+            let arm = self.arms.map(|arms| &arms[side.index()]);
+            let joints = arm.into_iter().flat_map(|arm| [Some(arm.shoulder), arm.elbow]).flatten();
+            JointRole::of_arm(side).into_iter().zip(joints).collect()
+        };
+        Side::BOTH.map(joints)
     }
 
     /// Length of the stretched leg: thigh and shank between the pitch axes, the mean of both sides (m).
@@ -169,7 +183,13 @@ impl Parts<'_> {
                 .collect();
             let hinges: Option<Vec<Hinge>> = hinges.into_iter().collect();
             let hinges: [Hinge; 6] = hinges?.try_into().ok()?;
-            Some(Leg { hinges, bodies: below.map(lump) })
+            Some(std::array::from_fn(|place| Segment { hinge: hinges[place], body: lump(below[place]) }))
+        });
+        let arms = self.arm_joints().map(|arm| {
+            let segment = |(role, (joint, body)): &(JointRole, (usize, usize))| {
+                Some(Segment { hinge: hinge(*role, *joint, role.axis(), *body)?, body: lump(*body) })
+            };
+            arm.iter().map(segment).collect::<Option<Vec<Segment>>>()
         });
         let behind = |joint: usize| self.waist.joints.iter().find(|(own, _)| *own == joint).map(|(_, body)| *body);
         let waist = match self.waist.roles {
@@ -182,7 +202,9 @@ impl Parts<'_> {
         };
         lines.extend(notes.lines());
         let [right, left] = legs;
-        let legs = [right?, left?];
+        let legs: [[Segment; 6]; 2] = [right?, left?];
+        let [right_arm, left_arm] = arms;
+        let arms = [right_arm?, left_arm?];
 
         let mut middle = LumpedBody::default();
         if let Some(roles) = self.waist.roles {
@@ -202,8 +224,8 @@ impl Parts<'_> {
         };
         let mount = match self.waist.joints.first() {
             Some((joint, _)) => self.poses.joints[*joint].0,
-            None => (legs[0].hinges[0].place + legs[1].hinges[0].place) / 2.0,
+            None => (legs[0][0].hinge.place + legs[1][0].hinge.place) / 2.0,
         };
-        Some(Biped { roles: self.roles, legs, pelvis, waist: waist?, mount, middle, trunk })
+        Some(Biped { roles: self.roles, legs, pelvis, waist: waist?, mount, middle, trunk, arms })
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
-use crate::import::biped::Biped;
+use crate::import::biped::{Biped, Segment};
 use crate::import::body::LumpedBody;
 
 /// Least radius of gyration of a body, as a share of the leg's length: some URDFs give mass without inertia.
@@ -14,16 +14,20 @@ const ROUNDING: f64 = 1e-9;
 /// leg (m).
 pub(super) fn repair(biped: &mut Biped, leg: f64, lines: &mut Vec<String>) {
     let mut changed = Vec::new();
-    let Biped { legs, pelvis, middle, trunk, .. } = biped;
+    let Biped { legs, pelvis, middle, trunk, arms, .. } = biped;
     for (body, name) in [(pelvis, "pelvis"), (middle, "waist"), (trunk, "trunk")] {
         changed.extend(repair_body(body, leg).map(|words| format!("{name} {words}")));
     }
+    let mut pairs = |right: &mut [Segment], left: &mut [Segment], names: &[&str]| {
+        for ((right, left), name) in right.iter_mut().zip(left).zip(names) {
+            changed.extend(repair_body(&mut right.body, leg).map(|words| format!("{name} {words}")));
+            left.body = right.body.mirrored();
+        }
+    };
     let [right, left] = legs;
-    let names = ["first hip link", "second hip link", "thigh", "shank", "ankle", "foot"];
-    for ((right, left), name) in right.bodies.iter_mut().zip(&mut left.bodies).zip(names) {
-        changed.extend(repair_body(right, leg).map(|words| format!("{name} {words}")));
-        *left = right.mirrored();
-    }
+    pairs(right, left, &["first hip link", "second hip link", "thigh", "shank", "ankle", "foot"]);
+    let [right, left] = arms;
+    pairs(right, left, &["upper arm", "forearm"]);
     if !changed.is_empty() {
         lines.push(format!(
             "moments of inertia that no body can have (each must be positive, and at most the sum of the other two) \

@@ -2,7 +2,7 @@
 
 use crate::import::drive::JointDrive;
 use crate::import::file_errors::FileErrors;
-use crate::import::role::LegRole;
+use crate::import::role::{JointRole, LegRole};
 
 /// Rounding of a URDF's angles (rad).
 const ROUNDING: f64 = 2e-4;
@@ -10,9 +10,9 @@ const ROUNDING: f64 = 2e-4;
 const SAME: f64 = 0.02;
 
 /// The range of the mirrored joint on the other side. Up the right leg and down the left one, pitch changes its sign,
-/// roll and yaw keep it.
-pub(super) fn mirrored(role: LegRole, range: [f64; 2]) -> [f64; 2] {
-    if role.axis() == 1 { reversed(range) } else { range }
+/// roll and yaw keep it; in the arms, which both lead outward, pitch keeps it.
+pub(super) fn mirrored(role: JointRole, range: [f64; 2]) -> [f64; 2] {
+    if role.axis() == 1 && !role.is_in_arm() { reversed(range) } else { range }
 }
 
 fn reversed([low, high]: [f64; 2]) -> [f64; 2] {
@@ -21,13 +21,13 @@ fn reversed([low, high]: [f64; 2]) -> [f64; 2] {
 
 /// What both sides can do, in the right one's sign: the range that they share, the smaller rate, the smaller torque.
 pub(super) fn mean(
-    role: LegRole,
+    role: JointRole,
     right: &JointDrive,
     left: &JointDrive,
     errors: &mut FileErrors,
     lines: &mut Vec<String>,
 ) -> JointDrive {
-    let name = role.name();
+    let name = role.name_of_both();
     let (own, image) = (right.range, mirrored(role, left.range));
     let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) < SAME;
     let shared = [own[0].max(image[0]), own[1].min(image[1])];
@@ -90,10 +90,10 @@ fn near_exactly(a: [f64; 2], b: [f64; 2]) -> bool {
 
 /// To which side a joint of the right leg bends farther: knees backward (negative), hips forward and outward, ankles
 /// with the toes up; 0 if nobody can tell.
-fn bends(role: LegRole) -> f64 {
+fn bends(role: JointRole) -> f64 {
     match role {
-        LegRole::Knee => -1.0,
-        LegRole::HipPitch | LegRole::HipRoll | LegRole::AnklePitch => 1.0,
-        LegRole::HipYaw | LegRole::AnkleRoll => 0.0,
+        JointRole::Leg(_, LegRole::Knee) => -1.0,
+        JointRole::Leg(_, LegRole::HipPitch | LegRole::HipRoll | LegRole::AnklePitch) => 1.0,
+        _ => 0.0,
     }
 }

@@ -2,6 +2,7 @@
 
 use model::Side;
 
+use crate::import::arm::Arm;
 use crate::import::biped::Biped;
 use crate::import::body::LumpedBody;
 use crate::import::import_map::ImportMap;
@@ -38,6 +39,24 @@ pub(super) fn roles(
         (true, true) => "waist: none, the legs hang on the trunk".to_string(),
         (true, false) => format!("waist: held ({}), it does not both pitch and roll", names.join(", ")),
     });
+}
+
+/// Tells which joints swing and bend the arms, and which others are turned for that; or why arms are held.
+pub(super) fn arms(robot: &UrdfRobot, arms: &Result<[Arm; 2], String>, lines: &mut Vec<String>) {
+    let arms = match arms {
+        Ok(arms) => arms,
+        Err(why) => return lines.push(format!("arms: held; {why}")),
+    };
+    let name = |joint: usize| robot.joints[joint].name.as_str();
+    for (side, arm) in Side::BOTH.into_iter().zip(arms) {
+        let mut text = format!("{} arm: shoulder {}", side_name(side), name(arm.shoulder.0));
+        text += &arm.elbow.map_or(", no elbow".to_string(), |(elbow, _)| format!(", elbow {}", name(elbow)));
+        for (place, (joint, angle)) in arm.held.iter().enumerate() {
+            let before = if place == 0 { "; it hangs with" } else { " and" };
+            text += &format!("{before} {} at {:.0}°", name(*joint), angle.to_degrees());
+        }
+        lines.push(text);
+    }
 }
 
 /// Tells what is held, at which angles; what slides or floats; and which couplings are left out.
@@ -78,9 +97,10 @@ pub(super) fn held(
     }
     couplings(robot, used, lines);
     let is_used = |role: JointRole| used.iter().any(|(own, _)| *own == role);
+    let are_arms_held = !used.iter().any(|(role, _)| role.is_in_arm());
     for (role, joint) in map.joints.iter().filter(|(role, _)| !is_used(*role)) {
         let which = joint.urdf.map_or(String::new(), |joint| format!(" ({})", name(joint)));
-        let why = if role.is_in_arm() { "arms are held" } else { "the robot has no such joint" };
+        let why = if role.is_in_arm() && are_arms_held { "arms are held" } else { "the robot has no such joint" };
         lines.push(format!("joint.{}{which} of the map is not used: {why}", role.name()));
     }
 }
@@ -114,7 +134,10 @@ pub(super) fn bodies(biped: &Biped) -> Vec<(&'static str, LumpedBody)> {
             ["the right ankle", "the left ankle"],
             ["the right foot", "the left foot"],
         ];
-        bodies.extend(leg.bodies.iter().zip(names).map(|(body, names)| (names[side], *body)));
+        bodies.extend(leg.iter().zip(names).map(|(segment, names)| (names[side], segment.body)));
+        let names = [["the right upper arm", "the left upper arm"], ["the right forearm", "the left forearm"]];
+        let arm = biped.arms[side].iter().zip(names);
+        bodies.extend(arm.map(|(segment, names)| (names[side], segment.body)));
     }
     bodies
 }

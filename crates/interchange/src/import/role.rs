@@ -68,8 +68,13 @@ impl JointRole {
     pub fn all() -> impl Iterator<Item = JointRole> {
         let right = LegRole::ALL.into_iter().rev().map(|role| JointRole::Leg(Side::Right, role));
         let left = LegRole::ALL.into_iter().map(|role| JointRole::Leg(Side::Left, role));
-        let arms = Side::BOTH.into_iter().flat_map(|side| [JointRole::Shoulder(side), JointRole::Elbow(side)]);
+        let arms = Side::BOTH.into_iter().flat_map(JointRole::of_arm);
         right.chain(left).chain([JointRole::WaistPitch, JointRole::WaistRoll]).chain(arms)
+    }
+
+    /// The roles of an arm, from the trunk outward.
+    pub const fn of_arm(side: Side) -> [JointRole; 2] {
+        [JointRole::Shoulder(side), JointRole::Elbow(side)]
     }
 
     /// The name of its table in map and mechanism file: `right_knee`.
@@ -86,6 +91,25 @@ impl JointRole {
     /// Its number in the mechanism file, 3 to 20.
     pub fn number(self) -> usize {
         JointRole::all().position(|role| role == self).unwrap_or_default() + 3
+    }
+
+    /// The name that it shares with the joint on the other side: `knee`.
+    pub fn name_of_both(self) -> String {
+        match self {
+            JointRole::Leg(_, role) => role.name().into(),
+            JointRole::Shoulder(_) => "shoulder".into(),
+            JointRole::Elbow(_) => "elbow".into(),
+            JointRole::WaistPitch | JointRole::WaistRoll => self.name(),
+        }
+    }
+
+    /// Which of the axes x, y, z (0, 1, 2) it turns about, more or less.
+    pub const fn axis(self) -> usize {
+        match self {
+            JointRole::Leg(_, role) => role.axis(),
+            JointRole::WaistPitch | JointRole::Shoulder(_) | JointRole::Elbow(_) => 1,
+            JointRole::WaistRoll => 0,
+        }
     }
 
     /// Whether it belongs to an arm.

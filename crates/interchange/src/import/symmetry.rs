@@ -3,11 +3,12 @@
 use model::Side;
 use nalgebra::{Unit, Vector3};
 
-use crate::import::biped::{Biped, Hinge};
+use crate::import::biped::{Biped, Hinge, Segment};
 use crate::import::body::LumpedBody;
+use crate::import::drive::JointDrive;
 use crate::import::file_errors::FileErrors;
 use crate::import::range_pair::{self, mirrored};
-use crate::import::role::{JointRole, LegRole};
+use crate::import::role::JointRole;
 use crate::import::urdf_robot::UrdfRobot;
 use crate::side_name::side_name;
 
@@ -17,33 +18,37 @@ const ROUNDING: f64 = 1e-6;
 const LENGTH_TOLD: f64 = 0.01;
 const MASS_TOLD: f64 = 0.03;
 /// What cannot be one robot any more: how far axes of right and left may differ (rad, m).
-const ANGLE_MAX: f64 = 0.035;
-const DISTANCE_MAX: f64 = 0.02;
+pub(super) const ANGLE_MAX: f64 = 0.035;
+pub(super) const DISTANCE_MAX: f64 = 0.02;
 
 /// Makes both sides the mean of one and the mirror image of the other, and puts the middle at y = 0.
 pub(super) fn symmetrise(biped: &mut Biped, robot: &UrdfRobot, errors: &mut FileErrors, lines: &mut Vec<String>) {
     let mut changes = Changes::default();
-    let [right, left] = biped.legs;
-    for (place, role) in biped.roles.into_iter().enumerate() {
-        let (own, other) = (right.hinges[place], left.hinges[place]);
-        let hinge = mean_hinge(role, [&own, &other], robot, errors, &mut changes, lines);
-        biped.legs[0].hinges[place] = hinge;
-        biped.legs[1].hinges[place] = Hinge {
-            urdf: other.urdf,
+    let mut mean_of = |role: JointRole, [own, other]: [Segment; 2]| {
+        let hinge = mean_hinge(role, [&own.hinge, &other.hinge], robot, errors, &mut changes, lines);
+        let image = Hinge {
+            urdf: other.hinge.urdf,
             place: across(hinge.place),
             axis: mirrored_axis(role, hinge.axis),
-            sign: other.sign,
-            drive: crate::import::drive::JointDrive {
+            sign: other.hinge.sign,
+            drive: JointDrive {
                 range: mirrored(role, hinge.drive.range),
-                motor: other.drive.motor,
+                motor: other.hinge.drive.motor,
                 ..hinge.drive
             },
         };
-        let (own, image) = (right.bodies[place], left.bodies[place].mirrored());
-        let mean = own.mean(&image);
-        changes.body(&own, &mean, &format!("the body below the {}", role.name()));
-        biped.legs[0].bodies[place] = mean;
-        biped.legs[1].bodies[place] = mean.mirrored();
+        let mean = own.body.mean(&other.body.mirrored());
+        changes.body(&own.body, &mean, &format!("the body below the {}", role.name_of_both()));
+        [Segment { hinge, body: mean }, Segment { hinge: image, body: mean.mirrored() }]
+    };
+    for (place, role) in biped.roles.into_iter().enumerate() {
+        let sides = biped.legs.map(|leg| leg[place]);
+        let sides = mean_of(JointRole::Leg(Side::Right, role), sides);
+        biped.legs.iter_mut().zip(sides).for_each(|(leg, side)| leg[place] = side);
+    }
+    let [right, left] = &mut biped.arms;
+    for ((right, left), role) in right.iter_mut().zip(left).zip(JointRole::of_arm(Side::Right)) {
+        [*right, *left] = mean_of(role, [*right, *left]);
     }
     for (body, name) in [(&mut biped.pelvis, "pelvis"), (&mut biped.middle, "waist"), (&mut biped.trunk, "trunk")] {
         let mean = body.mean(&body.mirrored());
@@ -65,16 +70,16 @@ pub(super) fn symmetrise(biped: &mut Biped, robot: &UrdfRobot, errors: &mut File
     changes.lines(lines);
 }
 
-/// The mean of a joint of the right leg and the mirror image of the left one's.
+/// The mean of a joint of the right side and the mirror image of the left one's.
 fn mean_hinge(
-    role: LegRole,
+    role: JointRole,
     [own, other]: [&Hinge; 2],
     robot: &UrdfRobot,
     errors: &mut FileErrors,
     changes: &mut Changes,
     lines: &mut Vec<String>,
 ) -> Hinge {
-    let name = role.name();
+    let name = role.name_of_both();
     let image_axis = mirrored_axis(role, other.axis);
     let axis = Unit::new_normalize(own.axis.into_inner() + image_axis.into_inner());
     let image = across(other.place);
@@ -84,7 +89,7 @@ fn mean_hinge(
         errors.note_at(
             joints[0].line,
             format!(
-                "joints {} and {} as {name} of right and left leg: their axes must be mirror images of each other; \
+                "joints {} and {} as {name} of both sides: their axes must be mirror images of each other; \
                  they differ by {:.2}° and {:.1} mm, and may by 2° and 20 mm",
                 joints[0].name,
                 joints[1].name,
@@ -116,7 +121,7 @@ fn middle_hinge(hinge: &mut Hinge, axis: usize, name: &str, changes: &mut Change
 
 /// The mirror image of an axis in the plane y = 0, its role's component positive as before. Rotations about an image
 /// have the opposite sign, and an axis has no direction of its own.
-fn mirrored_axis(role: LegRole, axis: Unit<Vector3<f64>>) -> Unit<Vector3<f64>> {
+fn mirrored_axis(role: JointRole, axis: Unit<Vector3<f64>>) -> Unit<Vector3<f64>> {
     let image = Vector3::new(-axis.x, axis.y, -axis.z);
     Unit::new_unchecked(if role.axis() == 1 { image } else { -image })
 }

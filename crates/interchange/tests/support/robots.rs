@@ -10,8 +10,9 @@ use super::{Tree, as_number};
 /// How far an import may differ from its URDF.
 #[derive(Clone, Copy)]
 pub(crate) struct Allowed {
-    /// Places of joints (m).
+    /// Places of joints (m), and those of the arms.
     pub(crate) place: f64,
+    pub(crate) arms: f64,
     /// Centre of mass (m).
     pub(crate) com: f64,
 }
@@ -46,7 +47,7 @@ pub(crate) fn same_robot(urdf: &str, imported: &Imported, yaw: f64, allowed: All
     let turn = UnitQuaternion::from_euler_angles(0.0, 0.0, -yaw);
     let pairs: Vec<(Vector3<f64>, Vector3<f64>)> = roles
         .iter()
-        .filter(|(role, ..)| !role.starts_with("waist"))
+        .filter(|(role, ..)| !role.starts_with("waist") && !is_in_arm(role))
         .map(|(role, name, _)| (zero.1[role].translation.vector, turn * urdf_place(&zero.0, name)))
         .collect();
     let shift = pairs.iter().map(|(ours, theirs)| ours - theirs).sum::<Vector3<f64>>() / pairs.len() as f64;
@@ -74,12 +75,17 @@ pub(crate) fn same_robot(urdf: &str, imported: &Imported, yaw: f64, allowed: All
         for (role, name, _) in roles.iter().filter(|(role, ..)| !(exchanged && role.starts_with("waist"))) {
             let theirs = (to_ours * Translation3::from(urdf_place(&theirs, name))).translation.vector;
             let ours = ours[role].translation.vector;
-            assert!((ours - theirs).norm() < allowed.place, "{role}: {ours:?} and {theirs:?}");
+            let allowed = if is_in_arm(role) { allowed.arms } else { allowed.place };
+            assert!((ours - theirs).norm() < allowed, "{role}: {ours:?} and {theirs:?}");
         }
         let theirs = to_ours * nalgebra::Point3::from(urdf.com(&theirs));
         let ours = mechanism.com(&ours);
         assert!((ours - theirs.coords).norm() < allowed.com, "centres of mass: {ours:?} and {theirs:?}");
     }
+}
+
+fn is_in_arm(role: &str) -> bool {
+    role.ends_with("shoulder") || role.ends_with("elbow")
 }
 
 /// The link that is the right foot: at the first joint of the right ankle, the one that is not on the way to the next.
@@ -119,7 +125,9 @@ pub(crate) fn is_symmetric(imported: &Imported) {
     let across = |vector: Vector3<f64>| Vector3::new(vector.x, -vector.y, vector.z);
     let place = |name: &str| zero[name].translation.vector;
     let middle = (place("right_knee").y + place("left_knee").y) / 2.0;
-    for role in ["hip_yaw", "hip_roll", "hip_pitch", "knee", "ankle_pitch", "ankle_roll"] {
+    let has = |role: &&str| file["joint"][format!("right_{role}")].get("urdf").is_some();
+    let roles = ["hip_yaw", "hip_roll", "hip_pitch", "knee", "ankle_pitch", "ankle_roll", "shoulder", "elbow"];
+    for role in roles.into_iter().filter(has) {
         let (right, left) = (format!("right_{role}"), format!("left_{role}"));
         let image = across(place(&left)) + Vector3::y() * 2.0 * middle;
         assert!((place(&right) - image).norm() < 1e-11, "{role}: {} and {image}", place(&right));
@@ -133,7 +141,7 @@ pub(crate) fn is_symmetric(imported: &Imported) {
             [as_number(&ends[0]), as_number(&ends[1])]
         };
         let [low, high] = range(&left);
-        let image = if main_axis(role) == 1 { [-high, -low] } else { [low, high] };
+        let image = if main_axis(role) == 1 && !is_in_arm(role) { [-high, -low] } else { [low, high] };
         assert_eq!(range(&right), image, "{role}");
         assert_eq!(table(&right)["rate_max_deg_per_s"], table(&left)["rate_max_deg_per_s"]);
     }
