@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut stream = CommandStream::connect(&Instance::new(&name)?, None)?;
 
     for (turn_deg, speed) in [(0.0, 1.2), (15.0, 1.0), (-15.0, 1.0), (0.0, 0.8), (0.0, 1.0)] {
-        let gait = GaitChange { turn: Some(f64::to_radians(turn_deg)), speed: Some(speed), extension: None };
+        let gait = GaitChange { turn: Some(f64::to_radians(turn_deg)), speed: Some(speed), ..GaitChange::NONE };
         let reply = stream.request(&Request { gait, ..Request::new(Source::Program) })?;
         println!("turn {turn_deg}°, speed {speed}: {} from half-step {}", reply.verdict, reply.effect_half_step);
 

@@ -23,8 +23,8 @@ fn ticks_never_allocate_whatever_is_requested() {
     assert!(allocations_of(|| drop(std::hint::black_box(vec![1]))) > 0, "the allocator does not count");
 
     let mut walking = Walking::begin(1);
-    let change = GaitChange { turn: Some(0.05), speed: Some(1.05), extension: Some(0.03) };
-    let nonsense = GaitChange { turn: Some(f64::NAN), speed: Some(9.0), extension: None };
+    let change = GaitChange { turn: Some(0.05), speed: Some(1.05), extension: Some(0.03), sidestep: Some(0.1) };
+    let nonsense = GaitChange { turn: Some(f64::NAN), speed: Some(9.0), ..GaitChange::NONE };
     let count = allocations_of(|| {
         for tick in 0..6000 {
             let request = match tick {

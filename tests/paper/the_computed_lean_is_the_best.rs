@@ -64,6 +64,7 @@ fn mean_lean_of_neighbouring_commands_keeps_the_margin_between_them() {
         turn: turn.to_radians(),
         speed,
         extension: extension.to_radians(),
+        sidestep: 0.0,
     };
     let compute = |command: &Command| PaperLean::best(&tree, sole, LeanAt::Ankle, &motions(&robot, command));
     for (speeds, turns, extensions) in [

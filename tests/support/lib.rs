@@ -12,6 +12,7 @@ pub mod pushing;
 mod python_side;
 pub mod replaying;
 pub mod sequence;
+pub mod velocity;
 pub mod walking;
 
 use std::path::PathBuf;

@@ -130,17 +130,20 @@ impl Sequence<'_> {
         self.wait(0.0, 2.0, "walking after a start")
     }
 
-    /// Changes one or all of the three quantities and says how.
+    /// Changes one or all of the four quantities and says how.
     fn change(&mut self, intent: Option<Intent>) -> Result<String, Trouble> {
-        let Limits { turn_max, speed_min, speed_max, extension_min, extension_max } = *self.limits;
+        let Limits { turn_max, speed_min, speed_max, extension_min, extension_max, sidestep_max } = *self.limits;
         let turn = self.random.random_range(-turn_max..=turn_max);
         let speed = self.random.random_range(speed_min..=speed_max);
         let extension = self.random.random_range(extension_min..=extension_max);
-        let all = GaitChange { turn: Some(turn), speed: Some(speed), extension: Some(extension) };
-        let request = match self.random.random_range(0..5) {
+        let sidestep = self.random.random_range(-sidestep_max..=sidestep_max);
+        let all =
+            GaitChange { turn: Some(turn), speed: Some(speed), extension: Some(extension), sidestep: Some(sidestep) };
+        let request = match self.random.random_range(0..6) {
             0 => GaitChange { turn: all.turn, ..GaitChange::default() },
             1 | 2 => GaitChange { speed: all.speed, ..GaitChange::default() },
             3 => GaitChange { extension: all.extension, ..GaitChange::default() },
+            4 => GaitChange { sidestep: all.sidestep, ..GaitChange::default() },
             _ => all,
         };
         let what = format!("asked for {request:.3?}");
@@ -175,14 +178,14 @@ impl Sequence<'_> {
     }
 
     fn trouble(&self, report: &Tick, what: &str) -> Trouble {
-        let interface::Command { turn, speed, extension } = report.command;
-        let (turn, extension) = (turn.to_degrees(), extension.to_degrees());
+        let interface::Command { turn, speed, extension, sidestep } = report.command;
+        let [turn, extension, sidestep] = [turn, extension, sidestep].map(f64::to_degrees);
         let place = report.report.half_step.index as f64 + report.report.half_step.progress;
         Trouble {
             fell: self.walking.has_fallen(report),
             time: self.walking.time(),
             what: format!(
-                "{:?} in half-step {place:.2} by c {speed:.2} α {turn:.1}° β {extension:.1}°: {what}",
+                "{:?} in half-step {place:.2} by c {speed:.2} α {turn:.1}° β {extension:.1}° γ {sidestep:.1}°: {what}",
                 report.report.mode
             ),
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use config::Config;
 use controller::{Controller, Driver, InlineWorker, Tick};
-use gait::{NominalTable, Start, Walk};
+use gait::{Limits, NominalTable, Start, Walk};
 use interface::{GaitChange, Intent, Measurement, Mode, Request, Setpoint, Source};
 use model::Mechanism;
 use pattern::PatternGenerator;
@@ -31,6 +31,19 @@ pub fn nominal() -> Arc<NominalTable> {
 /// `config/controller.toml`.
 pub fn controller_parameters() -> controller::Parameters {
     controller::Parameters::load(repository().join("config/controller.toml")).expect("the committed file loads")
+}
+
+/// The range of gait parameters of the first acceptance runs: forward, on which the paper's figures look, without
+/// sidesteps. The committed one is wider.
+pub fn first_range() -> Limits {
+    Limits {
+        turn_max: 30_f64.to_radians(),
+        speed_min: 0.5,
+        speed_max: 1.5,
+        extension_min: -8_f64.to_radians(),
+        extension_max: 12_f64.to_radians(),
+        sidestep_max: 0.0,
+    }
 }
 
 /// `config/plant.toml`.
@@ -135,7 +148,12 @@ impl Walking {
     /// Requests something: the report of the tick that answers, which is this one or, if it has to wait for a support
     /// change, one soon.
     pub fn ask(&mut self, request: GaitChange, intent: Option<Intent>) -> Tick {
-        let mut report = self.tick(Some((&request, intent)));
+        self.ask_for(&Request { gait: request, intent, ..Request::new(Source::Console) })
+    }
+
+    /// The same with any request.
+    pub fn ask_for(&mut self, request: &Request) -> Tick {
+        let mut report = self.tick_with(Some(request));
         for _ in 0..ANSWERED_WITHIN {
             if report.reply.is_some() {
                 break;

@@ -266,7 +266,7 @@ fn valid(number: u64) -> RequestMessage {
 }
 
 fn refused(_: u64) -> RequestMessage {
-    change(GaitChange { turn: Some(3.0), speed: Some(9.0), extension: Some(3.0) }, Source::Script)
+    change(GaitChange { turn: Some(3.0), speed: Some(9.0), extension: Some(3.0), sidestep: Some(3.0) }, Source::Script)
 }
 
 fn invalid(number: u64) -> RequestMessage {

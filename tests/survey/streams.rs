@@ -1,7 +1,7 @@
 //! Random streams: a new request from the whole box every few half-steps.
 
 use halfstep_tests::random;
-use halfstep_tests::walking::Walking;
+use halfstep_tests::walking::{Walking, controller_parameters};
 use interface::Verdict;
 use rand::{Rng, rngs::StdRng};
 
@@ -21,6 +21,9 @@ pub(crate) struct Options {
     /// How long each
     #[arg(long, default_value_t = 600.0)]
     seconds: f64,
+    /// From the whole configured range, sideways and backward too, instead of the box of the first acceptance runs
+    #[arg(long)]
+    every_direction: bool,
 }
 
 /// What became of a stream.
@@ -32,7 +35,8 @@ struct Stream {
 pub(crate) fn survey(options: &Options) -> bool {
     let streams = on_all_cores(options.seeds as usize, |index| {
         let mut stream = Stream { verdicts: [0; 3], watched: Watched::new(Walking::begin(seed(options, index))) };
-        let mut source = Source::new(seed(options, index));
+        let seed = seed(options, index);
+        let mut source = if options.every_direction { Source::in_every_direction(seed) } else { Source::new(seed) };
         while stream.watched.fall.is_none() && stream.watched.walking.time() < options.seconds {
             let request = source.next(stream.watched.report.report.half_step.index);
             stream.watched.tick(request.as_ref());
@@ -75,19 +79,37 @@ fn seed(options: &Options, index: usize) -> u64 {
 pub(crate) struct Source {
     random: StdRng,
     next: u64,
+    range: Range,
+}
+
+/// What the requests are drawn from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Range {
+    /// The box of the first acceptance runs.
+    FirstBox,
+    /// The configured range of all gait parameters.
+    Configured,
 }
 
 impl Source {
     /// The first request comes after two half-steps.
     pub(crate) fn new(seed: u64) -> Self {
-        Self { random: random(seed), next: 2 }
+        Self { random: random(seed), next: 2, range: Range::FirstBox }
+    }
+
+    /// The same, from the configured range.
+    pub(crate) fn in_every_direction(seed: u64) -> Self {
+        Self { range: Range::Configured, ..Self::new(seed) }
     }
 
     /// The request of this tick, in the half-step of this index.
     pub(crate) fn next(&mut self, half_step: u64) -> Option<interface::GaitChange> {
         (half_step >= self.next).then(|| {
             self.next = half_step + self.random.random_range(2..=6);
-            asked::any(&mut self.random)
+            match self.range {
+                Range::FirstBox => asked::any(&mut self.random),
+                Range::Configured => asked::any_direction(&mut self.random, &controller_parameters().gait.limits),
+            }
         })
     }
 }

@@ -6,7 +6,8 @@ use halfstep_tests::walking::Walking;
 use interface::{GaitChange, Intent, Reason, Reply, Verdict};
 use nalgebra::Vector3;
 
-const EXTREME: GaitChange = GaitChange { turn: Some(FRAC_PI_6), speed: Some(1.5), extension: Some(0.2094) };
+const EXTREME: GaitChange =
+    GaitChange { turn: Some(FRAC_PI_6), speed: Some(1.5), extension: Some(0.2094), ..GaitChange::NONE };
 
 /// The reply 50 ms after a push (N·s), and the robot.
 fn after_push(impulse: Vector3<f64>) -> (Reply, Walking) {

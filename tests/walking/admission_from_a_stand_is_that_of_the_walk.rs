@@ -5,7 +5,7 @@ use halfstep_tests::mechanism;
 use halfstep_tests::walking::{Walking, controller_parameters, plant_parameters};
 use interface::{GaitChange, Intent, Mode, Reply, Verdict};
 
-const EXTREME: GaitChange = GaitChange { turn: Some(0.52), speed: Some(1.5), extension: Some(0.2) };
+const EXTREME: GaitChange = GaitChange { turn: Some(0.52), speed: Some(1.5), extension: Some(0.2), ..GaitChange::NONE };
 
 /// A robot whose margin must be so large that not everything in the configured range is granted.
 fn standing(margin_min: f64) -> Walking {

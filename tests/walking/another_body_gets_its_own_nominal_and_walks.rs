@@ -71,6 +71,7 @@ fn assert_walks(robot: &Mechanism, seeds: u64) {
         turn: Some(turn.to_radians()),
         speed: Some(speed),
         extension: Some(extension.to_radians()),
+        ..GaitChange::NONE
     };
     let script = [asked(15.0, 1.0, 0.0), asked(-15.0, 1.1, 0.0), asked(0.0, 1.2, 3.0), asked(10.0, 0.9, -3.0)];
 

@@ -39,7 +39,7 @@ const ASKS: [Ask; 8] =
 
 impl Ask {
     fn asked(self) -> Request {
-        let values = GaitChange { turn: Some(0.1), speed: Some(0.9), extension: Some(0.05) };
+        let values = GaitChange { turn: Some(0.1), speed: Some(0.9), extension: Some(0.05), sidestep: Some(0.05) };
         let (gait, intent) = match self {
             Ask::Walk => (GaitChange::default(), Some(Intent::Walk)),
             Ask::InPlace => (GaitChange::default(), Some(Intent::InPlace)),

@@ -15,6 +15,7 @@ fn stop_and_hold_lead_to_a_stand_from_any_moment_of_the_walk() {
             turn: Some(random.random_range(-limits.turn_max..=limits.turn_max)),
             speed: Some(random.random_range(limits.speed_min..=limits.speed_max)),
             extension: Some(random.random_range(limits.extension_min..=limits.extension_max)),
+            sidestep: Some(random.random_range(-limits.sidestep_max..=limits.sidestep_max)),
         };
         let intent = if seed % 2 == 0 { Intent::Stop } else { Intent::Hold };
         let mut walking = Walking::begin(seed);

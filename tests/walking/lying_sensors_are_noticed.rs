@@ -160,6 +160,7 @@ fn no_alarm_is_raised_by_a_minute_of_any_commands() {
                 turn: Some(random.random_range(-limits.turn_max..=limits.turn_max)),
                 speed: Some(random.random_range(limits.speed_min..=limits.speed_max)),
                 extension: Some(random.random_range(limits.extension_min..=limits.extension_max)),
+                sidestep: Some(random.random_range(-limits.sidestep_max..=limits.sidestep_max)),
             };
             let report = walking.tick((tick % 1500 == 700).then_some((&change, None))).report;
             assert!(!is_alarm(report.faults), "seed {seed}, tick {tick}");

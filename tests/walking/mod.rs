@@ -20,6 +20,7 @@ mod steps_in_place;
 mod the_controller_begins_where_the_robot_is;
 mod the_preview_keeps_the_zmp_in_the_sole;
 mod walks_by_every_extreme_of_what_is_granted;
+mod walks_in_every_direction;
 mod walks_on_after_pushes;
 mod walks_on_slopes_and_with_payload;
 mod walks_on_uneven_ground;

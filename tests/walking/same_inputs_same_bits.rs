@@ -5,7 +5,7 @@ use interface::GaitChange;
 
 fn setpoints(seed: u64) -> Vec<[u64; 20]> {
     let mut walking = Walking::begin(seed);
-    let turn = GaitChange { turn: Some(0.05), speed: Some(1.03), extension: Some(-0.02) };
+    let turn = GaitChange { turn: Some(0.05), speed: Some(1.03), extension: Some(-0.02), ..GaitChange::NONE };
     (0..5000)
         .map(|tick| {
             let report = walking.tick((tick == 700).then_some((&turn, None)));

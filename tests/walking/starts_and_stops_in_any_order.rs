@@ -39,12 +39,13 @@ const INTENTS: [Intent; 4] = [Intent::Stop, Intent::Hold, Intent::Walk, Intent::
 
 /// What a nervous hand asks for: any intent, and values from one end of the range to the other.
 fn slammed(random: &mut StdRng, limits: &Limits) -> Request {
-    let Limits { turn_max, speed_min, speed_max, extension_min, extension_max } = *limits;
+    let Limits { turn_max, speed_min, speed_max, extension_min, extension_max, sidestep_max } = *limits;
     let intent = random.random_bool(0.25).then(|| INTENTS[random.random_range(0..INTENTS.len())]);
     let turn = random.random_bool(0.6).then(|| [-turn_max, turn_max][random.random_range(0..2)]);
     let speed = random.random_bool(0.5).then(|| random.random_range(speed_min..=speed_max));
     let extension = random.random_bool(0.5).then(|| random.random_range(extension_min..=extension_max));
-    Request { gait: GaitChange { turn, speed, extension }, intent, ..Request::new(Source::Script) }
+    let sidestep = random.random_bool(0.5).then(|| [-sidestep_max, sidestep_max][random.random_range(0..2)]);
+    Request { gait: GaitChange { turn, speed, extension, sidestep }, intent, ..Request::new(Source::Script) }
 }
 
 #[test]

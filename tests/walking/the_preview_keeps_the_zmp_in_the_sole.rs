@@ -7,7 +7,7 @@
 use controller::Compensation;
 use dynamics::{Kinematics, NewtonEuler, Tree, zmp};
 use gait::{Start, Walk};
-use halfstep_tests::walking::{PERIOD, controller_parameters, nominal};
+use halfstep_tests::walking::{PERIOD, controller_parameters, first_range, nominal};
 use halfstep_tests::{mechanism, random};
 use interface::GaitChange;
 use model::{Motion, Side};
@@ -16,8 +16,10 @@ use rand::Rng;
 
 /// Plays a minute of random commands and looks at every instant.
 fn play(seed: u64, compensation: Compensation, mut look: impl FnMut(&dyn Gait, &Motion)) {
-    let (mechanism, parameters) = (mechanism(), controller_parameters());
-    let limits = parameters.gait.limits;
+    let (mechanism, mut parameters) = (mechanism(), controller_parameters());
+    // Nobody checks here whether what is asked can be walked.
+    let limits = first_range();
+    parameters.gait.limits = limits;
     let walk = Walk::new(nominal(), &mechanism, &parameters.gait, Start::default()).expect("it walks");
     let mut gait: Box<dyn Gait> = match compensation {
         Compensation::None => Box::new(UncompensatedGait::new(&mechanism, walk)),
@@ -32,6 +34,7 @@ fn play(seed: u64, compensation: Compensation, mut look: impl FnMut(&dyn Gait, &
                 turn: Some(random.random_range(-limits.turn_max..=limits.turn_max)),
                 speed: Some(random.random_range(limits.speed_min..=limits.speed_max)),
                 extension: Some(random.random_range(limits.extension_min..=limits.extension_max)),
+                sidestep: None,
             });
         }
         gait.advance(PERIOD);

@@ -26,7 +26,8 @@ fn walk(request: GaitChange) -> (Verdict, Command) {
 
 #[test]
 fn walks_by_each_extreme_alone() {
-    let Limits { turn_max, speed_min, speed_max, extension_min, extension_max } = controller_parameters().gait.limits;
+    let limits = controller_parameters().gait.limits;
+    let Limits { turn_max, speed_min, speed_max, extension_min, extension_max, sidestep_max } = limits;
     for turn in [-turn_max, turn_max] {
         let (verdict, granted) = walk(GaitChange { turn: Some(turn), ..GaitChange::default() });
         assert_eq!((verdict, granted.turn), (Verdict::Accepted, turn));
@@ -39,6 +40,10 @@ fn walks_by_each_extreme_alone() {
         let (verdict, granted) = walk(GaitChange { extension: Some(extension), ..GaitChange::default() });
         assert_eq!((verdict, granted.extension), (Verdict::Accepted, extension));
     }
+    for sidestep in [-sidestep_max, sidestep_max] {
+        let (verdict, granted) = walk(GaitChange { sidestep: Some(sidestep), ..GaitChange::default() });
+        assert_eq!((verdict, granted.sidestep), (Verdict::Accepted, sidestep));
+    }
 }
 
 #[test]
@@ -50,6 +55,7 @@ fn requests_beyond_all_three_limits_are_limited_and_walked() {
             speed: Some(pick(0)),
             turn: Some(pick(1).to_radians()),
             extension: Some(pick(2).to_radians()),
+            ..GaitChange::NONE
         };
         let (verdict, _) = walk(request);
         assert_eq!(verdict, Verdict::Limited, "{request:?}");

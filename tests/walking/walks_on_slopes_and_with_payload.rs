@@ -17,7 +17,7 @@ fn assert_walks(what: &str, corner: [f64; 2], change: impl Fn(&mut PlantParamete
     let mut parameters = plant_parameters();
     change(&mut parameters);
     let mut walking = Walking::begin_with(&mechanism(), &controller_parameters(), &parameters, 1);
-    let request = GaitChange { turn: Some(corner[0].to_radians()), speed: Some(corner[1]), extension: None };
+    let request = GaitChange { turn: Some(corner[0].to_radians()), speed: Some(corner[1]), ..GaitChange::NONE };
     walking.walk(1.0);
     walking.tick(Some((&request, None)));
     let truth = walking.walk(SECONDS);

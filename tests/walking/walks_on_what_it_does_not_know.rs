@@ -15,7 +15,7 @@ fn assert_walks(what: &str, change: impl Fn(&mut PlantParameters)) {
     change(&mut parameters);
     for (speed, turn) in [(1.3, 15_f64), (0.7, -15_f64)] {
         let mut walking = Walking::begin_with(&mechanism(), &controller_parameters(), &parameters, 3);
-        let request = GaitChange { turn: Some(turn.to_radians()), speed: Some(speed), extension: None };
+        let request = GaitChange { turn: Some(turn.to_radians()), speed: Some(speed), ..GaitChange::NONE };
         walking.ask(request, Some(Intent::Walk));
         let fallen = walking.walk(SECONDS).has_fallen();
         let mode = walking.tick(None).report.mode;

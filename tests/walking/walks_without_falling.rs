@@ -16,6 +16,7 @@ fn gentle(turn: f64, speed: f64, extension: f64) -> GaitChange {
         turn: Some((5.0 * turn).to_radians()),
         speed: Some(1.0 + 0.05 * speed),
         extension: Some((3.0 * extension).to_radians()),
+        ..GaitChange::NONE
     }
 }
 
@@ -100,6 +101,7 @@ fn walks_a_minute_with_random_commands_from_all_that_is_granted() {
                     turn: Some(random.random_range(-limits.turn_max..=limits.turn_max)),
                     speed: Some(random.random_range(limits.speed_min..=limits.speed_max)),
                     extension: Some(random.random_range(limits.extension_min..=limits.extension_max)),
+                    sidestep: Some(random.random_range(-limits.sidestep_max..=limits.sidestep_max)),
                 }
             })
         });

@@ -11,8 +11,8 @@ fn reply(walking: &mut Walking, gait: GaitChange, intent: Option<Intent>) -> Rep
     walking.ask(gait, intent).reply.expect("a reply within a half-step")
 }
 
-const FAST_AND_LONG: GaitChange = GaitChange { turn: None, speed: Some(1.2), extension: Some(0.1) };
-const SLOW_AND_TURNING: GaitChange = GaitChange { turn: Some(0.3), speed: Some(0.8), extension: None };
+const FAST_AND_LONG: GaitChange = GaitChange { speed: Some(1.2), extension: Some(0.1), ..GaitChange::NONE };
+const SLOW_AND_TURNING: GaitChange = GaitChange { turn: Some(0.3), speed: Some(0.8), ..GaitChange::NONE };
 
 #[test]
 fn in_place_a_high_speed_and_an_extension_wait_for_the_walk_and_the_reply_tells() {
@@ -41,7 +41,7 @@ fn in_place_a_high_speed_and_an_extension_wait_for_the_walk_and_the_reply_tells(
 /// What is stored in place is checked as the walk that it is for.
 #[test]
 fn gait_parameters_are_limited_in_place_as_they_are_walked() {
-    let extreme = GaitChange { turn: Some(FRAC_PI_6), speed: Some(1.5), extension: Some(0.2094) };
+    let extreme = GaitChange { turn: Some(FRAC_PI_6), speed: Some(1.5), extension: Some(0.2094), ..GaitChange::NONE };
     let mut walking = Walking::begin(12);
     walking.walk(1.0);
     reply(&mut walking, GaitChange::NONE, Some(Intent::InPlace));

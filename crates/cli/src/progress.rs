@@ -28,12 +28,14 @@ impl Progress {
         let margin = report.margin.map_or("   –".to_owned(), |margin| format!("{:4.0}", margin * 1e3));
         self.bar.set_position(tick + 1);
         self.bar.set_message(format!(
-            "{:6.1} s  half-step {:3}  speed {:.2}  turn {:+5.1}°  extension {:+5.1}°  margin {margin} mm  {}",
+            "{:6.1} s  half-step {:3}  speed {:.2}  turn {:+5.1}°  extension {:+5.1}°  sidestep {:+5.1}°  \
+             margin {margin} mm  {}",
             (tick + 1) as f64 * self.rate.period_s(),
             report.half_step.index,
             report.speed,
             report.turn.to_degrees(),
             report.extension.to_degrees(),
+            report.sidestep.to_degrees(),
             report.mode,
         ));
     }

@@ -65,7 +65,8 @@ impl fmt::Display for SummaryInFolder<'_> {
 
 impl fmt::Display for WalkSummary {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        let Measures { half_steps, distance_m, heading_deg, min_margin_mm, falls, fall } = self.measures;
+        let Measures { half_steps, distance_m, truth, min_margin_mm, falls, fall, .. } = self.measures;
+        let heading_deg = truth.heading_deg;
         let margin = min_margin_mm.map_or("unknown".to_owned(), |margin| format!("{:.0} mm", margin.round() + 0.0));
         let falls = if falls == 0 { "no fall".to_owned() } else { counted(falls as u64, "fall") };
         let half_steps = counted(half_steps, "half-step");

@@ -1,6 +1,6 @@
 //! Admission control: one request at a time, from its submission to its reply.
 
-use interface::{Command, Intent, Reason, Reply, Request, Source, Verdict};
+use interface::{Command, Intent, Reason, Reply, Request, Source, SteadyWalk, Verdict};
 use pattern::PatternGenerator;
 
 use crate::admission_job::{AdmissionJob, Decision};
@@ -135,6 +135,7 @@ impl Decision {
     pub(crate) fn reply(&self, intent: Intent) -> Reply {
         let Self { verdict, granted, effect_half_step, objection, predicted_margin } = *self;
         Reply {
+            walk: SteadyWalk::ZERO,
             id: 0,
             verdict,
             reason: objection.map_or(Reason::None, |objection| objection.reason),

@@ -4,7 +4,7 @@
 //! The controller opens it with a copy of its pattern generator. The driver takes it, evaluates it (at once in
 //! lockstep, on another thread in real time) and completes it. That takes milliseconds and allocates nothing.
 
-use interface::{ActiveLimit, Command, GaitChange, Intent, Objection, Reason, Request, Verdict};
+use interface::{ActiveLimit, Command, GaitChange, Intent, Objection, Reason, Request, Verdict, WalkVelocity};
 use pattern::{Feasibility, FeasibilityCheck, Gait, GaitState, Limit, LimitViolation, PatternGenerator};
 
 use crate::pattern::goal_of;
@@ -16,6 +16,8 @@ const HALF_STEPS: u64 = 2;
 const KNOTS: std::ops::Range<usize> = 280..1000;
 /// Bisections between the command in force and the requested one in search of what can be granted.
 const BISECTIONS: usize = 4;
+/// Bisections in search of the share of a velocity that is in the configured range, which costs little.
+const RANGE_BISECTIONS: usize = 12;
 /// A request that would violate a limit this shortly before a support change (s) is evaluated again after it: by then
 /// the centre of mass has moved over the next foot.
 const LATE: f64 = 0.2;
@@ -23,7 +25,7 @@ const LATE: f64 = 0.2;
 /// A request under evaluation.
 #[derive(Clone, Debug)]
 pub struct AdmissionJob {
-    change: GaitChange,
+    wanted: Wanted,
     intent: Option<Intent>,
     check: FeasibilityCheck,
     /// A copy of the controller's generator; once evaluated, how it goes on with what was granted.
@@ -33,6 +35,15 @@ pub struct AdmissionJob {
     /// The copy that is simulated ahead.
     trial: PatternGenerator,
     decision: Option<Decision>,
+}
+
+/// What a request asks of the walk.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Wanted {
+    /// Other gait parameters. Less of it lies between those in force and these.
+    Parameters(GaitChange),
+    /// A velocity. Less of it is slower, in the same direction and on the same arc.
+    Velocity(WalkVelocity),
 }
 
 /// What became of a request.
@@ -54,7 +65,7 @@ impl AdmissionJob {
     /// An empty job, to be opened for each request.
     pub(crate) fn new(check: FeasibilityCheck, generator: &PatternGenerator) -> Self {
         Self {
-            change: GaitChange::NONE,
+            wanted: Wanted::Parameters(GaitChange::NONE),
             intent: None,
             check,
             generator: generator.clone(),
@@ -66,7 +77,9 @@ impl AdmissionJob {
 
     /// Opens it for a request.
     pub(crate) fn open(&mut self, generator: &PatternGenerator, request: &Request) {
-        (self.change, self.intent, self.decision) = (request.gait, request.intent, None);
+        self.wanted = request.velocity.map_or(Wanted::Parameters(request.gait), Wanted::Velocity);
+        self.intent = request.intent.or(request.velocity.map(|_| Intent::Walk));
+        self.decision = None;
         self.renew(generator);
     }
 
@@ -81,7 +94,7 @@ impl AdmissionJob {
     pub fn evaluate(&mut self) {
         let Some(decision) = self.decision.or_else(|| self.decide()) else { return };
         let index = self.generator.half_step().index;
-        let applied = apply(&mut self.generator, &decision.granted.into(), self.intent);
+        let applied = apply(&mut self.generator, &decision.granted.into(), self.intent, self.wanted.is_gradual());
         let arrives = index + u64::from(self.generator.gait_state().half_steps_to_goal());
         self.decision = Some(Decision { effect_half_step: applied.effect_half_step.max(arrives), ..decision });
     }
@@ -98,8 +111,27 @@ impl AdmissionJob {
 
     fn decide(&mut self) -> Option<Decision> {
         let in_force = self.generator.command();
-        let change = self.change;
+        let velocity = match self.wanted {
+            Wanted::Velocity(velocity) => Some(velocity),
+            Wanted::Parameters(_) => None,
+        };
+        if velocity.is_some_and(|velocity| !velocity.is_finite()) {
+            let objection = Some(Objection { reason: Reason::NotFinite, active_limit: None });
+            let unchanged = Decision::unchanged(in_force, self.generator.half_step().index);
+            return Some(Decision { verdict: Verdict::Refused, objection, ..unchanged });
+        }
+        let out_of_range = velocity.and_then(|velocity| self.range_objection(&velocity));
+        let change = match self.wanted {
+            Wanted::Parameters(change) => change,
+            Wanted::Velocity(velocity) => self.generator.command_at(&self.within_range(&velocity)).into(),
+        };
         let (requested, feasibility) = self.simulate(&change);
+        let requested = match out_of_range {
+            Some(objection) if requested.verdict == Verdict::Accepted => {
+                Decision { verdict: Verdict::Limited, objection: Some(objection), ..requested }
+            }
+            _ => requested,
+        };
         if feasibility.violation.is_some() && self.is_late() {
             return None;
         }
@@ -123,18 +155,43 @@ impl AdmissionJob {
         }
         let (mut best, mut best_share) = (unchanged, 0.0);
         let mut step = 0.5;
+        let velocity = velocity.map(|velocity| self.within_range(&velocity));
+        let less = |job: &Self, share: f64| match velocity {
+            Some(velocity) => job.generator.command_at(&velocity.scaled(share)),
+            None => between(&base, &requested.granted, share),
+        };
         for _ in 0..BISECTIONS {
             let share = best_share + step;
-            let (_, feasibility) = self.simulate(&between(&base, &requested.granted, share).into());
+            let (_, feasibility) = self.simulate(&less(self, share).into());
             if feasibility.is_no_worse_than(&unchanged) {
                 (best, best_share) = (feasibility, share);
             }
             step /= 2.0;
         }
         let verdict = if best_share > 0.0 { Verdict::Limited } else { Verdict::Refused };
-        let granted = between(&base, &requested.granted, best_share);
+        let granted = if best_share > 0.0 { less(self, best_share) } else { base };
         let objection = feasibility.violation.as_ref().map(objection).or(requested.objection);
         decided(Decision { verdict, granted, objection, ..requested }, &best)
+    }
+
+    /// Why a velocity is outside the configured range of gait parameters, if it is.
+    fn range_objection(&self, velocity: &WalkVelocity) -> Option<Objection> {
+        self.generator.walk().grant(&self.generator.command_at(velocity).into(), Command::NOMINAL).objection
+    }
+
+    /// The largest share of a velocity that is within the configured range.
+    fn within_range(&self, velocity: &WalkVelocity) -> WalkVelocity {
+        if self.range_objection(velocity).is_none() {
+            return *velocity;
+        }
+        let (mut share, mut step) = (0.0, 0.5);
+        for _ in 0..RANGE_BISECTIONS {
+            if self.range_objection(&velocity.scaled(share + step)).is_none() {
+                share += step;
+            }
+            step /= 2.0;
+        }
+        velocity.scaled(share)
     }
 
     /// Whether a support change is near; never in the first half of a half-step, so that no request waits for ever.
@@ -147,7 +204,7 @@ impl AdmissionJob {
     /// Simulates the coming knots with a change: as the robot will move, and as it will walk with what is in force only
     /// once it does. In a stand gait parameters wait for that, and in place the extension and a high speed do.
     fn simulate(&mut self, change: &GaitChange) -> (Decision, Feasibility) {
-        let changes_something = self.change != GaitChange::NONE;
+        let changes_something = self.wanted != Wanted::Parameters(GaitChange::NONE);
         match self.intended_gait() {
             IntendedGait::Walk => self.simulate_with(change, self.intent),
             IntendedGait::Stand if self.intent.is_none() => self.simulate_with(change, Some(Intent::Walk)),
@@ -163,7 +220,7 @@ impl AdmissionJob {
     /// Simulates the coming knots with a change and an intent, until a full step was made with both.
     fn simulate_with(&mut self, change: &GaitChange, intent: Option<Intent>) -> (Decision, Feasibility) {
         self.trial.clone_from(&self.generator);
-        let decision = apply(&mut self.trial, change, intent);
+        let decision = apply(&mut self.trial, change, intent, self.wanted.is_gradual());
         let end = decision.effect_half_step + HALF_STEPS;
         let goes_on = |trial: &PatternGenerator, knots: usize| {
             let is_seen = trial.half_step().index >= end || trial.gait_state().is_standing();
@@ -183,7 +240,7 @@ impl AdmissionJob {
 
     /// Tells that part of what was asked for is not walked in place.
     fn qualified(&self, decision: Decision) -> Decision {
-        let GaitChange { speed, extension, .. } = self.change;
+        let Wanted::Parameters(GaitChange { speed, extension, .. }) = self.wanted else { return decision };
         let waits = speed.is_some_and(|speed| speed > 1.0) || extension.is_some_and(|extension| extension != 0.0);
         if decision.verdict == Verdict::Accepted && waits && self.intended_gait() == IntendedGait::InPlace {
             let objection = Some(Objection { reason: Reason::InPlace, active_limit: None });
@@ -201,9 +258,19 @@ enum IntendedGait {
     Stand,
 }
 
+impl Wanted {
+    /// Whether the walk changes over by a limited amount in each half-step.
+    fn is_gradual(&self) -> bool {
+        matches!(self, Wanted::Velocity(_))
+    }
+}
+
 /// Applies what the configured range admits of a change, and the intent.
-fn apply(generator: &mut PatternGenerator, change: &GaitChange, intent: Option<Intent>) -> Decision {
-    let gait::RangeCheck { verdict, objection, granted, effect_half_step } = generator.admit(change);
+///
+/// * `is_gradual` – whether the walk changes over by a limited amount in each half-step
+fn apply(generator: &mut PatternGenerator, change: &GaitChange, intent: Option<Intent>, is_gradual: bool) -> Decision {
+    let admission = if is_gradual { generator.admit_gradually(change) } else { generator.admit(change) };
+    let gait::RangeCheck { verdict, objection, granted, effect_half_step } = admission;
     if verdict != Verdict::Refused
         && let Some(goal) = intent.and_then(goal_of)
     {
@@ -237,6 +304,7 @@ fn between(from: &Command, to: &Command, share: f64) -> Command {
         turn: mix(from.turn, to.turn),
         speed: mix(from.speed, to.speed),
         extension: mix(from.extension, to.extension),
+        sidestep: mix(from.sidestep, to.sidestep),
     }
 }
 

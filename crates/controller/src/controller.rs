@@ -13,8 +13,10 @@ use interface::{
 };
 use model::{ComState, JointVector, Mechanism, Motion, Side};
 use nalgebra::Vector2;
-use pattern::{FeasibilityCheck, PatternGenerator, Stance};
-use stabilizer::{BalanceState, ComPrediction, ContactEstimate, DcmFeedback, LandingCompliance, ZmpEstimator};
+use pattern::{FeasibilityCheck, PatternGenerator, Stance, VelocityMap};
+use stabilizer::{
+    BalanceState, ComPrediction, ContactEstimate, DcmFeedback, LandingCompliance, WalkOdometry, ZmpEstimator,
+};
 
 use crate::admission_control::AdmissionControl;
 use crate::admission_job::AdmissionJob;
@@ -63,6 +65,8 @@ pub struct Controller {
     unexpected_posture: Option<Rejection>,
     gravity: GravityConsistency,
     com_prediction: ComPrediction,
+    odometry: WalkOdometry,
+    velocity_map: VelocityMap,
     /// For how long measurements have shown an error that the ankles cannot correct (s).
     uncorrectable_for: f64,
     /// Time since the first tick began (s).
@@ -123,6 +127,7 @@ impl Controller {
         let mut reference = ReferenceDynamics::new(mechanism, &tree, walk.mirror());
         reference.update(&tree, walk.mirror(), &gait.motion(), gait.contact());
         let first = walk.mirror().to_physical(gait.half_step().support, &gait.motion().angles);
+        let odometry = WalkOdometry::new(mechanism, reference.kinematics(), gait.half_step().support);
         let check = FeasibilityCheck::new(mechanism, reference.clone(), parameters.feasibility);
         Self {
             state: OperatingState::new(intent),
@@ -141,6 +146,8 @@ impl Controller {
             unexpected_posture: None,
             gravity: GravityConsistency::default(),
             com_prediction: ComPrediction::default(),
+            odometry,
+            velocity_map: VelocityMap::new(mechanism, walk.table()),
             uncorrectable_for: 0.0,
             time: 0.0,
             latched: None,
@@ -219,7 +226,8 @@ impl Controller {
 
     /// A reply with the state of the controller as it leaves.
     fn complete_reply(&self, reply: Reply) -> Reply {
-        Reply { mode: Some(self.mode()), latched: self.latched, ..reply }
+        let walk = self.velocity_map.steady_walk(&reply.granted);
+        Reply { mode: Some(self.mode()), latched: self.latched, walk, ..reply }
     }
 
     /// What the controller is doing.
@@ -296,6 +304,7 @@ impl Controller {
         }
         let gait = self.pattern.gait_mut();
         if gait.advance(dt) {
+            self.odometry.support_on(gait.half_step().support);
             let mirror = gait.walk().mirror();
             // The swing foot as it landed: the reference is still that of the tick before.
             let landed = self.reference.kinematics().rotation[self.tree.foot(Side::Left)];
@@ -332,6 +341,8 @@ impl Controller {
             speed: gait.speed(),
             turn: gait.command().turn,
             extension: gait.command().extension,
+            sidestep: gait.command().sidestep,
+            odometry: self.odometry.report(&gait.landings()),
             zmp_in_support: self.contact.zmp.filter(|_| is_same_foot),
             zmp_planned: has_plan.then_some(self.reference.zmp),
             margin: Some(self.contact.margin).filter(|margin| margin.is_finite()),

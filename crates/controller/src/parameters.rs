@@ -57,11 +57,12 @@ fn gait(gait: &Table, limits: &Table) -> GaitParameters {
         ramp: gait.choice("ramp", ramps).unwrap_or(RampKind::Quintic),
         speed_ramp: gait.duration("speed_ramp_s", 0.01, 60.0),
         limits: Limits {
-            turn_max: limits.angle("turn_max_deg").between(0.0, 45.0),
+            turn_max: limits.angle("turn_max_deg").between(0.0, 60.0),
             speed_min: limits.number("speed_min").between(0.05, 1.0),
             speed_max: limits.number("speed_max").between(1.0, 3.0),
-            extension_min: limits.angle("extension_min_deg").between(-45.0, 0.0),
+            extension_min: limits.angle("extension_min_deg").between(-80.0, 0.0),
             extension_max: limits.angle("extension_max_deg").between(0.0, 45.0),
+            sidestep_max: limits.angle("sidestep_max_deg").between(0.0, 45.0),
         },
     }
 }

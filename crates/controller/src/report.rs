@@ -60,7 +60,7 @@ pub(crate) fn added_angles(mechanism: &Mechanism, plain: &JointVector, planned: 
 #[cfg(test)]
 mod tests {
     use config::Config;
-    use interface::{Faults, HalfStep, Mode};
+    use interface::{Faults, HalfStep, Mode, Odometry};
 
     use super::*;
 
@@ -93,6 +93,7 @@ mod tests {
                 speed: 1.0,
                 turn: 0.1,
                 extension: 0.0,
+                sidestep: 0.1,
                 zmp_in_support: Some(Vector2::new(0.01, 0.02)),
                 zmp_planned: Some(Vector2::new(0.03, 0.04)),
                 margin: Some(0.02),
@@ -100,6 +101,7 @@ mod tests {
                 added: Some(AddedAngles { ankle: Vector2::new(0.3, 0.4), waist: Vector2::new(0.5, 0.6) }),
                 com_planned: Some(com),
                 com_measured: None,
+                odometry: Odometry::default(),
                 faults: Faults::default(),
             })
         };

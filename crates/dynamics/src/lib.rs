@@ -26,6 +26,7 @@ mod time_scaling;
 mod tree;
 mod twist;
 mod upper_body;
+mod walk_pose;
 mod zmp;
 mod zmp_jacobian;
 
@@ -45,5 +46,6 @@ pub use support_polygon::SupportPolygon;
 pub use time_scaling::{wrench_at_speed, zmp_at_speed};
 pub use tree::Tree;
 pub use upper_body::UpperBody;
+pub use walk_pose::{pose_in_frame_of, pose_seen_from};
 pub use zmp::zmp;
 pub use zmp_jacobian::ZmpJacobian;

@@ -55,6 +55,28 @@ pub enum WalkError {
         /// The two joints of the ankle.
         ankle: [Joint; 2],
     },
+    /// A hip roll joint does not rotate about x, as sidestepping needs.
+    #[error(
+        "joint {} ({}) turns about {:?}: it must be x, since sidestepping is a roll of the hips",
+        joint.number(), joint.name(), axis.as_slice()
+    )]
+    HipRollNotForward {
+        /// The joint that should rotate about x.
+        joint: Joint,
+        /// Axis of that joint.
+        axis: Vector3<f64>,
+    },
+    /// Neither joint of an ankle rotates about x, as sidestepping needs.
+    #[error(
+        "neither joint {} nor joint {} of the {side:?} ankle turns about x: sidestepping cannot keep the sole level",
+        ankle[0].number(), ankle[1].number()
+    )]
+    NoAnkleRoll {
+        /// Side of the ankle.
+        side: Side,
+        /// The two joints of the ankle.
+        ankle: [Joint; 2],
+    },
     /// The range of granted commands does not include the nominal walk.
     #[error(
         "the limits of {quantity} are {min} to {max}: they must be finite and include the nominal walk's \

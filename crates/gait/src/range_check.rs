@@ -11,7 +11,8 @@ use crate::Limits;
 pub struct RangeCheck {
     /// Granted as requested, in part, or not at all.
     pub verdict: Verdict,
-    /// Why it was not granted as requested: the first parameter that was not, in the order turn, speed, extension.
+    /// Why it was not granted as requested: the first parameter that was not, in the order turn, speed, extension,
+    /// sidestep.
     pub objection: Option<Objection>,
     /// The parameters in force from now on; after a refusal, those in force before.
     pub granted: Command,
@@ -28,6 +29,8 @@ pub enum Quantity {
     Speed,
     /// `β`, the step extension.
     Extension,
+    /// `γ`, the sidestep.
+    Sidestep,
 }
 
 impl Limits {
@@ -37,6 +40,7 @@ impl Limits {
             Quantity::Turn => (-self.turn_max, self.turn_max),
             Quantity::Speed => (self.speed_min, self.speed_max),
             Quantity::Extension => (self.extension_min, self.extension_max),
+            Quantity::Sidestep => (-self.sidestep_max, self.sidestep_max),
         }
     }
 
@@ -46,14 +50,16 @@ impl Limits {
         let (turn, turn_objection) = self.nearest(Quantity::Turn, change.turn, in_force.turn);
         let (speed, speed_objection) = self.nearest(Quantity::Speed, change.speed, in_force.speed);
         let (extension, extension_objection) = self.nearest(Quantity::Extension, change.extension, in_force.extension);
-        let mut objections = [turn_objection, speed_objection, extension_objection].into_iter().flatten();
+        let (sidestep, sidestep_objection) = self.nearest(Quantity::Sidestep, change.sidestep, in_force.sidestep);
+        let objections = [turn_objection, speed_objection, extension_objection, sidestep_objection];
+        let mut objections = objections.into_iter().flatten();
         let refusal = objections.clone().find(|objection| objection.reason == Reason::NotFinite);
         if refusal.is_some() {
             return (Verdict::Refused, refusal, in_force);
         }
         let objection = objections.next();
         let verdict = if objection.is_none() { Verdict::Accepted } else { Verdict::Limited };
-        (verdict, objection, Command { turn, speed, extension })
+        (verdict, objection, Command { turn, speed, extension, sidestep })
     }
 
     /// The permitted value nearest to the requested one, and the objection if it differs.
@@ -85,6 +91,7 @@ impl Quantity {
             Quantity::Turn => Reason::TurnLimit,
             Quantity::Speed => Reason::SpeedLimit,
             Quantity::Extension => Reason::ExtensionLimit,
+            Quantity::Sidestep => Reason::SidestepLimit,
         }
     }
 }
@@ -95,6 +102,7 @@ impl fmt::Display for Quantity {
             Quantity::Turn => "turn",
             Quantity::Speed => "speed",
             Quantity::Extension => "extension",
+            Quantity::Sidestep => "sidestep",
         })
     }
 }
@@ -103,15 +111,21 @@ impl fmt::Display for Quantity {
 mod tests {
     use super::*;
 
-    const LIMITS: Limits =
-        Limits { turn_max: 0.5, speed_min: 0.6, speed_max: 1.4, extension_min: -0.1, extension_max: 0.2 };
+    const LIMITS: Limits = Limits {
+        turn_max: 0.5,
+        speed_min: 0.6,
+        speed_max: 1.4,
+        extension_min: -0.1,
+        extension_max: 0.2,
+        sidestep_max: 0.3,
+    };
 
     #[test]
     fn values_outside_the_range_are_limited_and_the_first_is_named() {
-        let change = GaitChange { turn: Some(-1.0), speed: Some(2.0), extension: None };
+        let change = GaitChange { turn: Some(-1.0), speed: Some(2.0), ..GaitChange::NONE };
         let (verdict, objection, granted) = LIMITS.admit(&change, Command::NOMINAL);
         assert_eq!(verdict, Verdict::Limited);
-        assert_eq!(granted, Command { turn: -0.5, speed: 1.4, extension: 0.0 });
+        assert_eq!(granted, Command { turn: -0.5, speed: 1.4, ..Command::NOMINAL });
         let active_limit = Some(ActiveLimit { joint: None, value: -1.0, limit: -0.5 });
         assert_eq!(objection, Some(Objection { reason: Reason::TurnLimit, active_limit }));
     }
@@ -119,7 +133,7 @@ mod tests {
     #[test]
     fn one_value_that_is_not_finite_refuses_the_whole_set() {
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            let change = GaitChange { turn: Some(0.1), speed: Some(bad), extension: Some(9.0) };
+            let change = GaitChange { turn: Some(0.1), speed: Some(bad), extension: Some(9.0), sidestep: None };
             let (verdict, objection, granted) = LIMITS.admit(&change, Command::NOMINAL);
             assert_eq!((verdict, granted), (Verdict::Refused, Command::NOMINAL));
             assert_eq!(objection, Some(Objection { reason: Reason::NotFinite, active_limit: None }));

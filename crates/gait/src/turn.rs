@@ -12,35 +12,19 @@
 
 use model::{Joint, JointVector, Mechanism, Motion, Side};
 
-use crate::{Ramp, RampKind, RampState, WalkError};
+use crate::deflection::Deflection;
+use crate::{DeflectionPhase, RampKind, RampState, WalkError};
 
 /// The joints that turn in the paper.
 const HIP_YAWS: [Joint; 2] = [Joint::RightHipYaw, Joint::LeftHipYaw];
-
-/// The part of a half-step in a turn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TurnPhase {
-    /// The feet stay parallel.
-    Straight,
-    /// The swing foot lands turned out.
-    Deflect,
-    /// The deflection is removed: the swing foot lands parallel again.
-    Restore,
-}
 
 /// The commanded turn and its offset in the present half-step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turn {
     /// One on each hip yaw, with the sign that turns the feet apart.
     apart: JointVector,
-    /// Shape of the ramps.
-    kind: RampKind,
-    /// `α` as commanded (rad).
-    angle: f64,
-    /// The part of the present half-step.
-    phase: TurnPhase,
-    /// Offset of either hip over progress (rad).
-    ramp: Ramp,
+    /// `α`, half of it on either hip.
+    deflection: Deflection,
 }
 
 impl Turn {
@@ -50,7 +34,7 @@ impl Turn {
         for joint in HIP_YAWS {
             apart[joint] = mechanism.links[joint].axis.z.signum();
         }
-        Self { apart, kind, angle: 0.0, phase: TurnPhase::Straight, ramp: Ramp::hold(0.0) }
+        Self { apart, deflection: Deflection::new(kind) }
     }
 
     /// Checks that offsets of the hip yaws alone turn the walk, as in the paper.
@@ -67,46 +51,33 @@ impl Turn {
 
     /// `α` as commanded: change of heading per full step (rad), positive to the left.
     pub fn angle(&self) -> f64 {
-        self.angle
+        self.deflection.angle()
     }
 
     /// The part of the present half-step.
-    pub fn phase(&self) -> TurnPhase {
-        self.phase
+    pub fn phase(&self) -> DeflectionPhase {
+        self.deflection.phase()
     }
 
     /// Commands a turn by `angle` per full step (rad), from the next deflecting half-step on.
     pub fn request(&mut self, angle: f64) {
-        self.angle = angle;
+        self.deflection.request(angle);
     }
 
     /// Number of half-steps from the present one, on `support`, until a change to `angle` takes effect: where the next
     /// deflection for it begins; for a change to straight on, where the next deflection is omitted.
     pub fn delay(&self, angle: f64, support: Side) -> u64 {
-        let (delay, foot) = match self.phase {
-            TurnPhase::Deflect => (2, support),
-            TurnPhase::Straight | TurnPhase::Restore => (1, support.other()),
-        };
-        let deflecting = deflecting_support(if angle == 0.0 { self.angle } else { angle });
-        if deflecting.is_some_and(|deflecting| deflecting != foot) { delay + 1 } else { delay }
+        self.deflection.delay(angle, support)
     }
 
     /// Begins a half-step on `support`. After a deflection it restores, whatever the command.
     pub fn begin_half_step(&mut self, support: Side) {
-        self.phase = match self.phase {
-            TurnPhase::Deflect => TurnPhase::Restore,
-            TurnPhase::Straight | TurnPhase::Restore if deflecting_support(self.angle) == Some(support) => {
-                TurnPhase::Deflect
-            }
-            TurnPhase::Straight | TurnPhase::Restore => TurnPhase::Straight,
-        };
-        let to = if self.phase == TurnPhase::Deflect { 0.5 * self.angle.abs() } else { 0.0 };
-        self.ramp = Ramp::new(self.kind, self.ramp.end(), to);
+        self.deflection.begin_half_step(support);
     }
 
     /// The offset of either hip at `progress` (rad), with derivatives by progress.
     pub fn per_hip(&self, progress: f64) -> RampState {
-        self.ramp.at(progress)
+        self.deflection.per_leg(progress)
     }
 
     /// The offsets of all joints at `progress`, canonical, at nominal speed in a half-step of `duration` (s).
@@ -117,16 +88,5 @@ impl Turn {
             rates: self.apart * per_hip.rate,
             accelerations: self.apart * per_hip.acceleration,
         }
-    }
-}
-
-/// The support foot while the other foot turns out; `None` when there is no turn.
-fn deflecting_support(angle: f64) -> Option<Side> {
-    if angle > 0.0 {
-        Some(Side::Right)
-    } else if angle < 0.0 {
-        Some(Side::Left)
-    } else {
-        None
     }
 }

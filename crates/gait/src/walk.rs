@@ -1,11 +1,12 @@
-//! The walk: the nominal half-step repeated from foot to foot, with turn, extension and speed as commanded.
+//! The walk: the nominal half-step repeated from foot to foot, with turn, extension, sidestep and speed as commanded.
 
 use std::sync::Arc;
 
 use model::{JointVector, Mechanism, Mirror, Motion, Side};
 
 use crate::{
-    GaitParameters, Limits, NominalTable, Quantity, RangeCheck, Speed, StepExtension, Turn, WalkError, at_speed,
+    GaitParameters, Limits, NominalTable, Quantity, RangeCheck, Sidestep, Speed, StepExtension, Turn, WalkError,
+    at_speed,
 };
 use interface::{Command, GaitChange, HalfStep};
 
@@ -18,6 +19,7 @@ pub struct Walk {
     half_step: HalfStep,
     turn: Turn,
     extension: StepExtension,
+    sidestep: Sidestep,
     speed: Speed,
 }
 
@@ -63,22 +65,26 @@ impl Walk {
             half_step: HalfStep::first(start.support),
             turn: Turn::new(mechanism, parameters.ramp),
             extension: StepExtension::new(mechanism, parameters.ramp),
+            sidestep: Sidestep::new(mechanism, parameters.ramp),
             speed: Speed::new(start.command.speed, parameters.ramp, parameters.speed_ramp.as_secs_f64()),
         };
         walk.turn.request(start.command.turn);
         walk.extension.request(start.command.extension);
+        walk.sidestep.request(start.command.sidestep);
         walk.begin_half_step();
         Ok(walk)
     }
 
-    /// Checks that the motion of the joints, [`motion`](Self::motion), is that of a modified walk: turn and extension
-    /// are offsets of single joints only where these have the paper's axes.
+    /// Checks that the motion of the joints, [`motion`](Self::motion), is that of a modified walk: turn,
+    /// extension and sidestep are offsets of single joints only where these have the paper's axes.
     ///
     /// # Errors
-    /// [`WalkError::HipYawNotVertical`], [`WalkError::HipPitchNotLateral`], [`WalkError::NoAnklePitch`].
+    /// [`WalkError::HipYawNotVertical`], [`WalkError::HipPitchNotLateral`], [`WalkError::NoAnklePitch`],
+    /// [`WalkError::HipRollNotForward`], [`WalkError::NoAnkleRoll`].
     pub fn check_joints(mechanism: &Mechanism) -> Result<(), WalkError> {
         Turn::check_joints(mechanism)?;
-        StepExtension::check_joints(mechanism)
+        StepExtension::check_joints(mechanism)?;
+        Sidestep::check_joints(mechanism)
     }
 
     /// Takes what is granted of a request and says what that is and when it takes effect, see [`Self::force`].
@@ -95,18 +101,24 @@ impl Walk {
     }
 
     /// Puts `command` into force, and returns the half-step from which on all of it is in effect: speed at once, turn
-    /// at the next deflecting half-step, extension at the next half-step. What is in force already changes nothing.
+    /// and sidestep at the next deflecting half-step, extension at the next half-step. What is in force
+    /// already changes nothing.
     pub fn force(&mut self, command: &Command) -> u64 {
         let (now, in_force) = (self.half_step, self.command());
         let mut effect_half_step = now.index;
         if command.turn != in_force.turn {
             effect_half_step = effect_half_step.max(now.index + self.turn.delay(command.turn, now.support));
         }
+        if command.sidestep != in_force.sidestep {
+            let delay = self.sidestep.delay(command.sidestep, now.support);
+            effect_half_step = effect_half_step.max(now.index + delay);
+        }
         if command.extension != in_force.extension {
             effect_half_step = effect_half_step.max(now.index + 1);
         }
         self.turn.request(command.turn);
         self.extension.request(command.extension);
+        self.sidestep.request(command.sidestep);
         self.speed.request(command.speed);
         effect_half_step
     }
@@ -139,8 +151,10 @@ impl Walk {
     /// The motion at another `progress` of this half-step, with the present speed and its rate.
     pub fn motion_at(&self, progress: f64) -> Motion {
         let duration = self.table.duration;
-        let at_nominal_speed =
-            self.table.at(progress) + self.turn.at(progress, duration) + self.extension.at(progress, duration);
+        let at_nominal_speed = self.table.at(progress)
+            + self.turn.at(progress, duration)
+            + self.extension.at(progress, duration)
+            + self.sidestep.at(progress, duration);
         let speed = self.speed.state();
         at_speed(&at_nominal_speed, speed.value, speed.rate)
     }
@@ -150,10 +164,12 @@ impl Walk {
         self.table.angles_at(progress) + self.offsets_at(progress)
     }
 
-    /// The offsets of turn and extension to the nominal angles at a progress (rad).
+    /// The offsets of turn, extension and sidestep to the nominal angles at a progress (rad).
     pub fn offsets_at(&self, progress: f64) -> JointVector {
         let duration = self.table.duration;
-        self.turn.at(progress, duration).angles + self.extension.at(progress, duration).angles
+        self.turn.at(progress, duration).angles
+            + self.extension.at(progress, duration).angles
+            + self.sidestep.at(progress, duration).angles
     }
 
     /// The present motion of the physical joints: 3 to 8 are the right leg's, whichever foot supports the robot.
@@ -166,9 +182,19 @@ impl Walk {
         self.half_step
     }
 
-    /// The command in force. Turn and extension take effect at half-steps, speed over a ramp.
+    /// The command in force. Turn, extension and sidestep take effect at half-steps, speed over a ramp.
     pub fn command(&self) -> Command {
-        Command { turn: self.turn.angle(), speed: self.speed.target(), extension: self.extension.angle() }
+        Command {
+            turn: self.turn.angle(),
+            speed: self.speed.target(),
+            extension: self.extension.angle(),
+            sidestep: self.sidestep.angle(),
+        }
+    }
+
+    /// Range of the commands that are granted.
+    pub fn limits(&self) -> &Limits {
+        &self.limits
     }
 
     /// The present speed.
@@ -186,6 +212,11 @@ impl Walk {
         &self.extension
     }
 
+    /// The sidestep in this half-step.
+    pub fn sidestep(&self) -> &Sidestep {
+        &self.sidestep
+    }
+
     /// The nominal half-step.
     pub fn table(&self) -> &Arc<NominalTable> {
         &self.table
@@ -196,9 +227,16 @@ impl Walk {
         &self.mirror
     }
 
+    /// Begins the present half-step anew with `command`, from feet side by side: before it has begun to progress.
+    pub fn restart(&mut self, command: &Command) {
+        self.force(command);
+        self.begin_half_step();
+    }
+
     fn begin_half_step(&mut self) {
         self.turn.begin_half_step(self.half_step.support);
         self.extension.begin_half_step();
+        self.sidestep.begin_half_step(self.half_step.support);
     }
 }
 
@@ -224,6 +262,11 @@ fn check_start(limits: &Limits, command: &Command) -> Result<(), WalkError> {
     Ok(())
 }
 
-fn quantities(command: &Command) -> [(Quantity, f64); 3] {
-    [(Quantity::Turn, command.turn), (Quantity::Speed, command.speed), (Quantity::Extension, command.extension)]
+fn quantities(command: &Command) -> [(Quantity, f64); 4] {
+    [
+        (Quantity::Turn, command.turn),
+        (Quantity::Speed, command.speed),
+        (Quantity::Extension, command.extension),
+        (Quantity::Sidestep, command.sidestep),
+    ]
 }

@@ -5,8 +5,8 @@
 
 mod common;
 
-use gait::{GaitParameters, RampKind, TurnPhase, Walk};
-use interface::Command;
+use gait::{DeflectionPhase, GaitParameters, RampKind, Walk};
+use interface::{Command, GaitChange};
 use model::{Joint, Mechanism, Side};
 use nalgebra::{Isometry2, Vector2};
 use proptest::prelude::*;
@@ -60,7 +60,8 @@ proptest! {
         let mechanism = common::mechanism();
         let mut outward: Option<f64> = None;
         for (ticks, request) in stream {
-            walk.admit(&request);
+            // A sidestep tilts the axis of the turn.
+            walk.admit(&GaitChange { sidestep: None, ..request });
             for _ in 0..ticks {
                 if !walk.advance(0.003) {
                     continue;
@@ -68,13 +69,13 @@ proptest! {
                 let end = walk.motion_at(1.0).angles;
                 let sole = common::left_sole_to_right_sole(&mechanism, &end);
                 match walk.turn().phase() {
-                    TurnPhase::Deflect => {
+                    DeflectionPhase::Deflect => {
                         // The swing foot always turns out, and only when the feet were parallel.
                         prop_assert_eq!(outward, None);
                         outward = Some(common::heading(&sole));
                         prop_assert!((common::heading(&sole) - walk.turn().angle().abs()).abs() < 1e-12);
                     }
-                    TurnPhase::Restore | TurnPhase::Straight => {
+                    DeflectionPhase::Restore | DeflectionPhase::Straight => {
                         outward = None;
                         prop_assert_eq!(end[Joint::RightHipYaw] + end[Joint::LeftHipYaw], 0.0);
                         prop_assert!(common::heading(&sole).abs() < 1e-12);
@@ -95,7 +96,7 @@ fn turning_tilts_the_soles_little_and_not_at_touchdown() {
     let turning = Command { turn, ..Command::NOMINAL };
     let mut walk = common::walk(&common::parameters(), Side::Right, turning);
     let mut largest: f64 = 0.0;
-    for phase in [TurnPhase::Deflect, TurnPhase::Restore, TurnPhase::Deflect] {
+    for phase in [DeflectionPhase::Deflect, DeflectionPhase::Restore, DeflectionPhase::Deflect] {
         assert_eq!(walk.turn().phase(), phase);
         let tilt_at = |progress: f64| {
             common::tilt(&common::left_sole_to_right_sole(&mechanism, &walk.motion_at(progress).angles))

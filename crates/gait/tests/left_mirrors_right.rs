@@ -1,7 +1,7 @@
 //! Goal: what the robot does on its left foot is the mirror image of what it does on its right.
 //!
-//! Method: two walks with the same requests, one begun on the right foot, the other on the left with turns the other
-//! way: canonical motions agree to the last bit, physical ones are each other's mirror image.
+//! Method: two walks with the same requests, one begun on the right foot, the other on the left with turns and
+//! sidesteps the other way: canonical motions agree to the last bit, physical ones are each other's mirror image.
 
 mod common;
 
@@ -21,7 +21,8 @@ proptest! {
         let mut left = common::walk(&parameters, Side::Left, Command::NOMINAL);
         for (ticks, request) in stream {
             let to_right = right.admit(&request);
-            let to_left = left.admit(&GaitChange { turn: request.turn.map(|turn| -turn), ..request });
+            let [turn, sidestep] = [request.turn, request.sidestep].map(|angle| angle.map(|angle| -angle));
+            let to_left = left.admit(&GaitChange { turn, sidestep, ..request });
             prop_assert_eq!(to_right.verdict, to_left.verdict);
             prop_assert_eq!(to_right.effect_half_step, to_left.effect_half_step);
             for _ in 0..ticks {

@@ -16,6 +16,7 @@ fn first_difference(mut changed: Walk, mut unchanged: Walk) -> Option<u64> {
     for _ in 0..6 {
         if changed.turn().per_hip(1.0) != unchanged.turn().per_hip(1.0)
             || changed.extension().per_hip(1.0) != unchanged.extension().per_hip(1.0)
+            || changed.sidestep().per_hip(1.0) != unchanged.sidestep().per_hip(1.0)
         {
             return Some(changed.half_step().index);
         }
@@ -79,17 +80,17 @@ fn a_set_of_changes_takes_effect_with_its_latest_one() {
     assert_eq!(walk.admit(&speed).effect_half_step, 0);
     let both = GaitChange { extension: Some(0.05), ..speed };
     assert_eq!(walk.admit(&both).effect_half_step, 1);
-    let all = GaitChange { turn: Some(0.1), extension: Some(0.02), speed: Some(9.0) };
+    let all = GaitChange { turn: Some(0.1), extension: Some(0.02), speed: Some(9.0), ..GaitChange::NONE };
     let admission = walk.admit(&all);
     assert_eq!((admission.effect_half_step, admission.verdict), (2, Verdict::Limited));
-    assert_eq!(walk.command(), Command { turn: 0.1, speed: 1.4, extension: 0.02 });
+    assert_eq!(walk.command(), Command { turn: 0.1, speed: 1.4, extension: 0.02, sidestep: 0.0 });
 }
 
 #[test]
 fn a_refused_request_changes_nothing() {
     let mut walk = common::walk(&common::parameters(), Side::Right, Command::NOMINAL);
     walk.advance(0.1);
-    let bad = GaitChange { turn: Some(0.1), speed: Some(f64::NAN), extension: Some(0.1) };
+    let bad = GaitChange { turn: Some(0.1), speed: Some(f64::NAN), extension: Some(0.1), sidestep: Some(0.1) };
     let mut other = walk.clone();
     let admission = other.admit(&bad);
     assert_eq!((admission.verdict, admission.granted), (Verdict::Refused, Command::NOMINAL));

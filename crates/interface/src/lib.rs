@@ -30,6 +30,7 @@ mod sensor;
 mod setpoint;
 mod source;
 mod verdict;
+mod walk_pose;
 
 pub use command::{Command, GaitChange};
 pub use fault::{Fault, Faults, LatchedFault};
@@ -47,3 +48,4 @@ pub use sensor::{Rejection, Sensor};
 pub use setpoint::Setpoint;
 pub use source::Source;
 pub use verdict::Verdict;
+pub use walk_pose::{Odometry, SteadyWalk, WalkPose, WalkVelocity};

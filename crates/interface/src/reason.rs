@@ -61,5 +61,7 @@ codes! {
         Expired = 26 "it expired before it could take effect",
         /// The robot cannot move to a stand from its posture: its feet would slip.
         NotInStand = 27 "the robot is not in a stand: put its feet side by side first",
+        /// The sidestep is outside the configured range.
+        SidestepLimit = 28 "the sidestep is outside the permitted range",
     }
 }

@@ -2,7 +2,7 @@
 
 use model::Joint;
 
-use crate::{Command, Intent, LatchedFault, Mode, Reason, Source, Verdict};
+use crate::{Command, Intent, LatchedFault, Mode, Reason, Source, SteadyWalk, Verdict};
 
 /// The reply to a request.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,6 +17,8 @@ pub struct Reply {
     pub effect_half_step: u64,
     /// Gait parameters in force from then on; after a refusal, those in force already.
     pub granted: Command,
+    /// What these gait parameters come to once the walk is steady.
+    pub walk: SteadyWalk,
     /// The intent in force from then on, if the controller has received one.
     pub intent: Option<Intent>,
     /// The limit that restricted the request, if the reason is a limit.
@@ -72,6 +74,7 @@ impl Reply {
             reason,
             effect_half_step,
             granted,
+            walk: SteadyWalk::ZERO,
             intent,
             active_limit: None,
             authority: None,

@@ -3,10 +3,10 @@
 use model::ComState;
 use nalgebra::Vector2;
 
-use crate::{Faults, HalfStep, Mode};
+use crate::{Faults, HalfStep, Mode, Odometry};
 
 /// The state of the controller after a control period. Points, vectors and rotations are expressed in the support
-/// foot's sole frame.
+/// foot's sole frame, but for the odometry.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
     /// What the controller is doing.
@@ -19,6 +19,8 @@ pub struct Report {
     pub turn: f64,
     /// `β` in force (rad).
     pub extension: f64,
+    /// `γ` in force (rad).
+    pub sidestep: f64,
     /// Measured ZMP (m). `None` when the feet bear too little force, and in the period of a support change, when it is
     /// known in the frame of the other foot only.
     pub zmp_in_support: Option<Vector2<f64>>,
@@ -35,6 +37,8 @@ pub struct Report {
     pub com_planned: Option<ComState>,
     /// Measured centre of mass, levelled; `None` as for the ZMP.
     pub com_measured: Option<ComState>,
+    /// Where the robot is, as estimated.
+    pub odometry: Odometry,
     /// What is wrong.
     pub faults: Faults,
 }

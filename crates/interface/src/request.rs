@@ -1,6 +1,6 @@
 //! A request of an operator.
 
-use crate::{GaitChange, Intent, Lifetime, Source};
+use crate::{GaitChange, Intent, Lifetime, Source, WalkVelocity};
 
 /// A request of an operator. It is atomic: it takes effect as a whole or not at all. The one exception is a stop, which
 /// takes effect before the gait parameters of the same request are evaluated. From a source that is outranked, only the
@@ -13,6 +13,8 @@ pub struct Request {
     pub source: Source,
     /// Gait parameters to change.
     pub gait: GaitChange,
+    /// The velocity to walk at, instead of gait parameters; zero is a stand. It starts the walk.
+    pub velocity: Option<WalkVelocity>,
     /// What the robot is to do; `None` leaves the intent as it is.
     pub intent: Option<Intent>,
     /// How long it stays in effect.
@@ -33,6 +35,7 @@ impl Request {
             not_before: 0,
             source,
             gait: GaitChange::NONE,
+            velocity: None,
             intent: None,
             lifetime: Lifetime::Latched,
             timeout: None,
@@ -43,12 +46,12 @@ impl Request {
 
     /// Whether it changes nothing: a heartbeat, or the end of a stream.
     pub fn is_empty(&self) -> bool {
-        self.gait == GaitChange::NONE && self.intent.is_none()
+        self.gait == GaitChange::NONE && self.velocity.is_none() && self.intent.is_none()
     }
 
-    /// Whether it ends the walk, which is granted to every source.
+    /// Whether it ends the walk, which is granted to every source: by its intent, or by no velocity.
     pub fn is_stop(&self) -> bool {
-        self.intent.is_some_and(Intent::is_stop)
+        self.intent.map_or_else(|| self.velocity.is_some_and(|velocity| velocity.is_zero()), Intent::is_stop)
     }
 
     /// Whether a later request of the same source leaves nothing of it in effect. A request for something else than the
@@ -59,6 +62,8 @@ impl Request {
             && self.gait.turn.is_none_or(|_| later.gait.turn.is_some())
             && self.gait.speed.is_none_or(|_| later.gait.speed.is_some())
             && self.gait.extension.is_none_or(|_| later.gait.extension.is_some())
+            && self.gait.sidestep.is_none_or(|_| later.gait.sidestep.is_some())
+            && self.velocity.is_none_or(|_| later.velocity.is_some())
             && self.intent.is_none_or(|intent| later.intent == Some(intent))
     }
 

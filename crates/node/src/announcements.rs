@@ -48,7 +48,7 @@ impl Announcements {
 
 #[cfg(test)]
 mod tests {
-    use interface::{Command, Fault, Faults, HalfStep, Report, Setpoint};
+    use interface::{Command, Fault, Faults, HalfStep, Odometry, Report, Setpoint};
     use model::Side;
     use nalgebra::Vector2;
 
@@ -61,6 +61,8 @@ mod tests {
             speed: 1.0,
             turn: 0.0,
             extension: 0.0,
+            sidestep: 0.0,
+            odometry: Odometry::default(),
             zmp_in_support: None,
             zmp_planned: None,
             margin: None,

@@ -1,6 +1,6 @@
 //! Replies as text for users, and as JSON.
 
-use interface::{ActiveLimit, ControlAuthority, Reason, Reply, Request, Verdict};
+use interface::{ActiveLimit, ControlAuthority, Reason, Reply, Request, SteadyWalk, Verdict};
 use serde::Serialize;
 
 /// A reply as JSON; angles in degrees.
@@ -16,6 +16,15 @@ pub struct ReplyJson {
     turn_deg: f64,
     speed: f64,
     extension_deg: f64,
+    sidestep_deg: f64,
+    /// How far ahead of the other foot each foot lands (m).
+    step_ahead_m: f64,
+    /// How far a full step goes aside (m).
+    step_aside_m: f64,
+    /// Mean velocity (m/s, °/s).
+    vx: f64,
+    vy: f64,
+    wz_deg_s: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     intent: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -70,6 +79,12 @@ impl From<&Reply> for ReplyJson {
             turn_deg: rounded(granted.turn.to_degrees()),
             speed: granted.speed,
             extension_deg: rounded(granted.extension.to_degrees()),
+            sidestep_deg: rounded(granted.sidestep.to_degrees()),
+            step_ahead_m: to_micro(reply.walk.step_ahead),
+            step_aside_m: to_micro(reply.walk.step_aside),
+            vx: to_micro(reply.walk.velocity.ahead),
+            vy: to_micro(reply.walk.velocity.left),
+            wz_deg_s: to_micro(reply.walk.velocity.turn.to_degrees()),
             intent: reply.intent.map(|intent| intent.text()),
             bound: reply.active_limit.map(|bound| {
                 let Unit { per_si, name } = unit(reply.reason);
@@ -133,7 +148,11 @@ struct Unit {
 fn unit(reason: Reason) -> Unit {
     const DEGREES: f64 = 180.0 / std::f64::consts::PI;
     let (per_si, name) = match reason {
-        Reason::TurnLimit | Reason::ExtensionLimit | Reason::JointRange | Reason::NotInStand => (DEGREES, "°"),
+        Reason::TurnLimit
+        | Reason::ExtensionLimit
+        | Reason::SidestepLimit
+        | Reason::JointRange
+        | Reason::NotInStand => (DEGREES, "°"),
         Reason::JointRate => (DEGREES, " °/s"),
         Reason::Torque | Reason::YawTorque => (1.0, " N·m"),
         Reason::Voltage => (1.0, " V"),
@@ -167,10 +186,41 @@ fn granted_text(request: &Request, reply: &Reply) -> String {
     let parts = [
         request.gait.turn.map(|_| angle("turn", granted.turn)),
         request.gait.speed.map(|_| format!("speed {}", rounded(granted.speed))),
-        request.gait.extension.map(|_| angle("extension", granted.extension)),
+        request
+            .gait
+            .extension
+            .map(|_| format!("{} (steps of {})", angle("extension", granted.extension), metres(reply.walk.step_ahead))),
+        request
+            .gait
+            .sidestep
+            .map(|_| format!("{} ({} aside)", angle("sidestep", granted.sidestep), metres(reply.walk.step_aside))),
+        request.velocity.map(|_| velocity_text(reply)),
         request.intent.map(|intent| intent.text().to_owned()),
     ];
     parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
+/// A velocity, and by which steps it is walked.
+fn velocity_text(reply: &Reply) -> String {
+    let SteadyWalk { step_ahead, step_aside, velocity } = &reply.walk;
+    format!(
+        "vx {:.3} m/s, vy {:.3} m/s, wz {:.1} °/s (speed {:.2}, steps of {}, {} aside)",
+        velocity.ahead + 0.0,
+        velocity.left + 0.0,
+        velocity.turn.to_degrees() + 0.0,
+        reply.granted.speed,
+        metres(*step_ahead),
+        metres(*step_aside)
+    )
+}
+
+fn metres(length: f64) -> String {
+    format!("{:.3} m", (length * 1e3).round() / 1e3 + 0.0)
+}
+
+/// A number rounded to a millionth.
+fn to_micro(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6 + 0.0
 }
 
 /// A number rounded such that the noise of its last binary digits and `-0` vanish.
@@ -187,7 +237,7 @@ mod tests {
     use super::*;
 
     fn reply(verdict: Verdict, reason: Reason) -> Reply {
-        let granted = Command { turn: 10_f64.to_radians(), speed: 1.0, extension: 0.0 };
+        let granted = Command { turn: 10_f64.to_radians(), speed: 1.0, ..Command::NOMINAL };
         Reply { verdict, ..Reply::refused(reason, 12, granted, None) }
     }
 
@@ -233,7 +283,7 @@ mod tests {
     #[test]
     fn every_reply_is_the_pinned_text() {
         let request = Request {
-            gait: GaitChange { turn: Some(0.5), speed: Some(1.5), extension: Some(0.2) },
+            gait: GaitChange { turn: Some(0.5), speed: Some(1.5), extension: Some(0.2), sidestep: Some(-0.1) },
             intent: Some(Intent::Walk),
             ..Request::new(Source::Script)
         };
@@ -243,6 +293,7 @@ mod tests {
                 Reason::TurnLimit
                 | Reason::SpeedLimit
                 | Reason::ExtensionLimit
+                | Reason::SidestepLimit
                 | Reason::Margin
                 | Reason::SoleClearance
                 | Reason::LegReach

@@ -1,8 +1,12 @@
 //! Scripts: requests with their times, one JSON object per line.
 //!
 //! ```text
-//! {"t": 1.5, "turn_deg": 10, "speed": 1.2, "extension_deg": 0, "intent": "walk"}
+//! {"t": 1.5, "turn_deg": 10, "speed": 1.2, "extension_deg": 0, "sidestep_deg": 0, "intent": "walk"}
+//! {"t": 3.0, "vx": 0.3, "vy": -0.1, "wz_deg_s": 15}
 //! ```
+//!
+//! The second line is a velocity in m/s ahead and to the left and in °/s, instead of gait parameters: what is left out
+//! of it is 0, and zero is a stand.
 //!
 //! `t` is the time since the start (s) and must not decrease; a request without it is due at once. At least one of the
 //! other keys is required. Empty lines are skipped. A request's id is the number of its line.
@@ -10,7 +14,7 @@
 use std::io::BufRead;
 use std::time::Duration;
 
-use interface::{GaitChange, Intent, Request, Source};
+use interface::{GaitChange, Intent, Request, Source, WalkVelocity};
 use runtime::Rate;
 use serde::{Deserialize, Deserializer};
 
@@ -53,11 +57,16 @@ struct Line {
     turn_deg: Option<f64>,
     speed: Option<f64>,
     extension_deg: Option<f64>,
+    sidestep_deg: Option<f64>,
+    vx: Option<f64>,
+    vy: Option<f64>,
+    wz_deg_s: Option<f64>,
     #[serde(default, deserialize_with = "intent")]
     intent: Option<Intent>,
 }
 
 const EXAMPLE: &str = r#"write e.g. {"t":1.5,"turn_deg":10,"speed":1.2,"extension_deg":0,"intent":"walk"}"#;
+const VELOCITY_EXAMPLE: &str = r#"{"t":1.5,"vx":0.3,"vy":-0.1,"wz_deg_s":15}"#;
 /// Latest time (s): longer than anyone walks, so that a later one is a mistake of unit.
 const TIME_MAX: f64 = 1e6;
 /// Most wrong lines of a script that are told.
@@ -149,8 +158,17 @@ fn timed_request(text: &str, last: &mut f64) -> Result<TimedRequest, String> {
         let text = text.split(" at line ").next().unwrap_or_default();
         format!("{text} (column {column}); {EXAMPLE}")
     })?;
-    let Line { t, turn_deg, speed, extension_deg, intent } = line;
-    if turn_deg.or(speed).or(extension_deg).is_none() && intent.is_none() {
+    let Line { t, turn_deg, speed, extension_deg, sidestep_deg, vx, vy, wz_deg_s, intent } = line;
+    let velocity = vx.or(vy).or(wz_deg_s).map(|_| WalkVelocity {
+        ahead: vx.unwrap_or(0.0),
+        left: vy.unwrap_or(0.0),
+        turn: wz_deg_s.unwrap_or(0.0).to_radians(),
+    });
+    let has_parameters = turn_deg.or(speed).or(extension_deg).or(sidestep_deg).is_some();
+    if has_parameters && velocity.is_some() {
+        return Err(format!("a velocity and gait parameters in one line; {EXAMPLE} or {VELOCITY_EXAMPLE}"));
+    }
+    if !has_parameters && velocity.is_none() && intent.is_none() {
         return Err(format!("no command in this line; {EXAMPLE}"));
     }
     if let Some(t) = t {
@@ -164,7 +182,13 @@ fn timed_request(text: &str, last: &mut f64) -> Result<TimedRequest, String> {
     }
     let request = Request {
         intent,
-        gait: GaitChange { turn: turn_deg.map(f64::to_radians), speed, extension: extension_deg.map(f64::to_radians) },
+        gait: GaitChange {
+            turn: turn_deg.map(f64::to_radians),
+            speed,
+            extension: extension_deg.map(f64::to_radians),
+            sidestep: sidestep_deg.map(f64::to_radians),
+        },
+        velocity,
         ..Request::new(Source::Script)
     };
     Ok(TimedRequest { time: t.map(Duration::from_secs_f64), request })

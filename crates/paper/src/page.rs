@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use gait::TurnPhase;
+use gait::DeflectionPhase;
 use plots::html::{data_url, escape};
 
 use super::Figure;
@@ -80,9 +80,9 @@ fn row(html: &mut String, figure: &Figure) {
 fn caption(html: &mut String, figure: &Figure, picture: &str) {
     let scenario = &figure.scenario;
     let mut words = format!("<b>Figure {}.</b> {}.", scenario.figure, escape(summary(figure)));
-    if figure.half_steps[0].phase != TurnPhase::Straight {
+    if figure.half_steps[0].phase != DeflectionPhase::Straight {
         for (half_step, extents) in figure.half_steps.iter().zip(&figure.extents_of) {
-            let phase = if half_step.phase == TurnPhase::Deflect { "Deflecting" } else { "Restoring" };
+            let phase = if half_step.phase == DeflectionPhase::Deflect { "Deflecting" } else { "Restoring" };
             words += &format!(" {phase}: margin {} mm.", number(extents.margin * 1e3, 1));
         }
     }

@@ -1,6 +1,6 @@
 //! Picture of a figure of the paper: soles to scale, and the ZMP under the support foot, over full steps.
 
-use gait::{Robot, TurnPhase, WalkError};
+use gait::{DeflectionPhase, Robot, WalkError};
 use interface::Command;
 use model::{Mechanism, Side};
 use nalgebra::{Isometry2, Isometry3, Point2, Vector2, Vector3};
@@ -23,7 +23,7 @@ const TURNING: usize = 5;
 /// The mechanism cannot turn or extend its steps.
 pub fn paper_figure(figure: &Figure, robot: &Robot, reading: Reading) -> Result<String, WalkError> {
     let (scenario, mechanism) = (&figure.scenario, &robot.mechanism);
-    let turns = figure.half_steps[0].phase != TurnPhase::Straight;
+    let turns = figure.half_steps[0].phase != DeflectionPhase::Straight;
     let count = if turns { TURNING } else { STRAIGHT };
     let mut chart = Chart::new("x [m]", "y [m]");
 

@@ -99,6 +99,7 @@ impl Config for Scenario {
                 turn: request.angle("turn_deg").between(-45.0, 45.0),
                 speed: request.number("speed").between(0.1, 2.0),
                 extension: request.angle("extension_deg").between(-20.0, 20.0),
+                sidestep: 0.0,
             },
             lean: root.has("lean").then(|| lean(&root.table("lean"))),
             paper_verdict: paper_verdict(root),

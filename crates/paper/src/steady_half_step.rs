@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 
 use dynamics::{Kinematics, Tree};
-use gait::{Robot, StepExtension, Turn, TurnPhase, WalkError, at_speed};
+use gait::{DeflectionPhase, Robot, StepExtension, Turn, WalkError, at_speed};
 use interface::Command;
 use model::{Mechanism, Motion, Side};
 use nalgebra::{Isometry2, Vector2};
@@ -18,7 +18,7 @@ pub struct SteadyHalfStep {
     /// The support foot.
     pub support: Side,
     /// Phase of the turn in this half-step.
-    pub phase: TurnPhase,
+    pub phase: DeflectionPhase,
     /// The motion at nominal speed without any lean, one value per interval boundary.
     pub at_nominal_speed: Vec<Motion>,
     /// Start and end of the swing foot.

@@ -1,6 +1,7 @@
 //! Poses of the feet: soles in support coordinates, footprints in the walk frame.
 
-use dynamics::{atan2, sin_cos};
+use dynamics::{atan2, pose_seen_from, sin_cos};
+use interface::WalkPose;
 use model::Side;
 use nalgebra::{Isometry2, Isometry3, Quaternion, Rotation2, Translation3, UnitQuaternion, Vector2, Vector3};
 
@@ -52,6 +53,15 @@ impl Footprint {
     pub(crate) fn next(&self, landed: &SolePose) -> Self {
         let step = Isometry2::new(self.mirrored(landed.position.xy()), self.side.lateral_sign() * landed.yaw);
         Self { foot_to_walk: self.foot_to_walk * step, side: self.side.other() }
+    }
+
+    /// Another footprint in the frame of this foot, not mirrored.
+    pub(crate) fn sees(&self, other: &Footprint) -> WalkPose {
+        let [here, there] = [self, other].map(|foot| {
+            let (place, turn) = (foot.foot_to_walk.translation.vector, foot.foot_to_walk.rotation);
+            WalkPose { x: place.x, y: place.y, heading: atan2(turn.im, turn.re) }
+        });
+        pose_seen_from(&here, &there)
     }
 
     /// Expresses a point of support coordinates in the walk frame.

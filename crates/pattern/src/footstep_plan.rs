@@ -1,5 +1,6 @@
 //! The footstep plan: which half-steps come and where they put the feet.
 
+use dynamics::sin_cos;
 use gait::{RangeCheck, Walk};
 use interface::{Command, GaitChange, Verdict};
 use nalgebra::{Vector2, Vector3};
@@ -20,7 +21,14 @@ pub(crate) struct FootstepPlan {
     pub feet: Feet,
     /// The command in force while the gait state is `Walking`; before a stand the walk is calmer.
     command: Command,
+    /// Whether the walk changes over to that command by a limited amount in each half-step.
+    is_gradual: bool,
+    /// The command with which the present half-step began.
+    begun_with: Command,
 }
+
+/// Within so many knots a half-step ends, unless the robot comes to a stand or walks very slowly.
+const KNOTS_FORESEEN: usize = 200;
 
 /// What happens to the footsteps at a knot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,18 +59,20 @@ impl FootstepPlan {
         let footprint = Footprint::first(walk.half_step().support);
         let command = walk.command();
         let feet = Feet { footprint, lift_off, landing: lift_off };
-        let mut plan = Self { walk, gait_state: GaitState::Walking, feet, command };
+        let gait_state = GaitState::Walking;
+        let mut plan = Self { walk, gait_state, feet, command, is_gradual: false, begun_with: command };
         plan.feet.landing = plan.landing(model);
         plan
     }
 
     /// A stand with the feet side by side, from which the walk can be started.
     pub(crate) fn standing(model: &PatternModel, walk: Walk) -> Self {
-        let parallel = beside_support(model, 0.0);
+        let parallel = beside_support(model, 0.0, 0.0);
         let footprint = Footprint::first(walk.half_step().support);
         let feet = Feet { footprint, lift_off: parallel, landing: parallel };
         let gait_state = GaitState::Standing(Stance::Parallel);
-        let mut plan = Self { command: walk.command(), walk, gait_state, feet };
+        let (command, begun_with) = (walk.command(), Command::NOMINAL);
+        let mut plan = Self { command, walk, gait_state, feet, is_gradual: false, begun_with };
         plan.walk.force(&Command::NOMINAL);
         plan.feet.landing = plan.landing(model);
         plan
@@ -74,10 +84,12 @@ impl FootstepPlan {
     }
 
     /// Puts in force what the limits of the gait grant of a request. See [`Walk::admit`].
-    pub(crate) fn admit(&mut self, request: &GaitChange) -> RangeCheck {
+    ///
+    /// * `is_gradual` – whether the walk changes over by a limited amount in each half-step
+    pub(crate) fn admit(&mut self, request: &GaitChange, is_gradual: bool) -> RangeCheck {
         let mut admission = self.walk.grant(request, self.command);
         if admission.verdict != Verdict::Refused {
-            self.command = admission.granted;
+            (self.command, self.is_gradual) = (admission.granted, is_gradual);
             if let Some(effect_half_step) = self.apply_command() {
                 admission.effect_half_step = effect_half_step;
             }
@@ -90,7 +102,8 @@ impl FootstepPlan {
         self.gait_state.set_goal(goal);
         if matches!(self.gait_state, GaitState::Stopping { .. }) {
             let Command { speed, extension, .. } = self.walk.command();
-            self.walk.force(&Command { turn: 0.0, speed: speed.min(1.0), extension: extension.min(0.0) });
+            let (speed, extension) = (speed.min(1.0), extension.min(0.0));
+            self.walk.force(&Command { turn: 0.0, speed, extension, sidestep: 0.0 });
         } else {
             self.apply_command();
         }
@@ -99,11 +112,16 @@ impl FootstepPlan {
     /// Lets the walk follow the command as far as the gait state allows: in place without extension and no faster than
     /// the nominal, not at all around a stand. Returns the half-step from which on it does, see [`Walk::force`].
     fn apply_command(&mut self) -> Option<u64> {
-        let Command { turn, speed, .. } = self.command;
         match self.gait_state {
+            GaitState::Walking if self.is_gradual => {
+                let half_steps = half_steps_between(&self.begun_with, &self.command);
+                let next = towards(&self.begun_with, &self.command);
+                Some(self.walk.force(&next) + half_steps.saturating_sub(1))
+            }
             GaitState::Walking => Some(self.walk.force(&self.command)),
             GaitState::InPlace { .. } => {
-                Some(self.walk.force(&Command { turn, speed: speed.min(1.0), extension: 0.0 }))
+                let speed = self.command.speed.min(1.0);
+                Some(self.walk.force(&Command { speed, extension: 0.0, ..self.command }))
             }
             GaitState::Stopping { .. }
             | GaitState::Standing(_)
@@ -117,11 +135,21 @@ impl FootstepPlan {
         let was_standing = self.gait_state.is_standing();
         let begins = self.gait_state.advance(&mut self.walk);
         if begins {
+            self.begun_with = self.walk.command();
             self.feet.lift_off = self.feet.landing.former_support();
             self.feet.footprint = self.feet.footprint.next(&self.feet.landing);
             self.feet.landing = self.landing(model);
+            if self.is_gradual && self.gait_state == GaitState::Walking {
+                self.apply_command();
+            }
             FootstepEvent::SupportChange
         } else if was_standing && !self.gait_state.is_standing() {
+            if self.is_gradual && self.gait_state == GaitState::Walking {
+                // From feet side by side a step of any direction is a first one.
+                let in_place = Command { extension: 2.0 * model.velocity.no_step(), ..Command::NOMINAL };
+                self.walk.restart(&towards(&in_place, &self.command));
+                self.begun_with = self.walk.command();
+            }
             self.apply_command();
             self.feet.landing = self.landing(model);
             FootstepEvent::LiftOff
@@ -139,13 +167,27 @@ impl FootstepPlan {
         model.lipm_residual.at(self.walk.half_step().progress, self.walk.speed().state().value)
     }
 
+    /// Where the support sole lands after the swing sole has landed and supports, in support coordinates of that one.
+    /// Before a stand it is where it stands.
+    pub(crate) fn landing_after(&self, model: &PatternModel) -> SolePose {
+        let mut ahead = self.clone();
+        for _ in 0..KNOTS_FORESEEN {
+            if ahead.advance(model) == FootstepEvent::SupportChange {
+                return ahead.feet.landing;
+            }
+        }
+        self.feet.landing.former_support()
+    }
+
     /// Where the swing sole of the present half-step lands.
     fn landing(&self, model: &PatternModel) -> SolePose {
         let mut landing = self.swing_sole(model, 1.0);
         landing.position.z = 0.0;
         match self.gait_state {
-            GaitState::Stopping { half_steps: 1, stance: Stance::Parallel, .. } => beside_support(model, 0.0),
-            GaitState::InPlace { half_steps: 0 } => beside_support(model, landing.yaw),
+            GaitState::Stopping { half_steps: 1, stance: Stance::Parallel, .. } => beside_support(model, 0.0, 0.0),
+            GaitState::InPlace { half_steps: 0 } => {
+                beside_support(model, landing.yaw, self.walk.sidestep().per_hip(1.0).value)
+            }
             _ => landing,
         }
     }
@@ -156,8 +198,34 @@ impl FootstepPlan {
     }
 }
 
-/// The other sole beside the support sole, both turned apart from the heading of the hips by half of `yaw` (rad).
-fn beside_support(model: &PatternModel, yaw: f64) -> SolePose {
-    let width = model.mechanism.foot_distance();
+/// Largest changes by which a walk changes over to another command in a half-step: turn, extension, sidestep (rad), and
+/// speed (-), which takes a ramp for each.
+const CHANGE_MAX: [f64; 4] = [0.35, 0.12, 0.18, 0.1];
+
+/// The command on the way from one to another that the next half-step makes.
+fn towards(from: &Command, to: &Command) -> Command {
+    let step = |from: f64, to: f64, max: f64| from + (to - from).clamp(-max, max);
+    Command {
+        turn: step(from.turn, to.turn, CHANGE_MAX[0]),
+        speed: step(from.speed, to.speed, CHANGE_MAX[3]),
+        extension: step(from.extension, to.extension, CHANGE_MAX[1]),
+        sidestep: step(from.sidestep, to.sidestep, CHANGE_MAX[2]),
+    }
+}
+
+/// The number of half-steps in which a walk changes over from one command to another.
+fn half_steps_between(from: &Command, to: &Command) -> u64 {
+    let turns = [to.turn - from.turn, to.extension - from.extension, to.sidestep - from.sidestep];
+    let changes = [turns[0], turns[1], turns[2], to.speed - from.speed];
+    let needed = changes.iter().zip(CHANGE_MAX).map(|(change, max)| (change.abs() / max).ceil());
+    needed.fold(0.0, f64::max) as u64
+}
+
+/// The other sole beside the support sole.
+///
+/// * `yaw` – by half of which both are turned apart from the heading of the hips (rad)
+/// * `spread` – by which either leg swings away from the other one (rad)
+fn beside_support(model: &PatternModel, yaw: f64, spread: f64) -> SolePose {
+    let width = model.mechanism.foot_distance() + 2.0 * model.hip_above_ankle * sin_cos(spread).0;
     SolePose { position: rotation_about_z(yaw / 2.0) * Vector3::new(0.0, width, 0.0), yaw }
 }

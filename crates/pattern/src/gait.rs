@@ -2,7 +2,7 @@
 
 use ::gait::{RangeCheck, Walk};
 use dynamics::PlannedContact;
-use interface::{Command, GaitChange, HalfStep};
+use interface::{Command, GaitChange, HalfStep, WalkPose};
 use model::Motion;
 use nalgebra::Vector2;
 
@@ -64,6 +64,10 @@ pub trait Gait {
         let progress = self.half_step().progress;
         progress.min(1.0 - progress) < SUPPORT_CHANGE * self.speed().max(SPEED_MIN)
     }
+
+    /// Where the swing foot lands next, and the support foot after it, in the frame of the support sole. Nothing is
+    /// mirrored.
+    fn landings(&self) -> [WalkPose; 2];
 
     /// Which feet are on the ground as planned.
     fn contact(&self) -> PlannedContact {

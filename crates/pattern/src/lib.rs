@@ -4,7 +4,7 @@
 //! The data flow in this order; each stage has a file of its own:
 //!
 //! 1. `gait_state`: whether the robot walks, steps in place, starts, stops or stands.
-//! 2. `footstep_plan`: which half-steps come and where they put the feet.
+//! 2. `footstep_plan`: which half-steps come and where they put the feet (`step_geometry`, `walk_velocity`).
 //! 3. `zmp_reference`: the reference of the zero-moment point (ZMP) over the coming 1.8 s.
 //! 4. `preview_controller`: the centre of mass of the cart-table model that tracks this reference.
 //! 5. `foot_trajectory`: swing sole, pelvis and hip height (`swing_path`, `step_adjustment`, `hip_height`).
@@ -47,10 +47,12 @@ mod proportions;
 mod sole_friction;
 mod speed_override;
 mod step_adjustment;
+mod step_geometry;
 mod stop_in_stride;
 mod swing_clearance;
 mod swing_path;
 mod uncompensated_gait;
+mod walk_velocity;
 mod whole_body_ik;
 mod zmp_reference;
 
@@ -61,5 +63,6 @@ pub use knot::KNOT;
 pub use limit::{Limit, LimitViolation};
 pub use pattern_generator::PatternGenerator;
 pub use uncompensated_gait::UncompensatedGait;
+pub use walk_velocity::VelocityMap;
 
 pub use crate::gait::Gait;

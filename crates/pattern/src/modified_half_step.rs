@@ -1,4 +1,4 @@
-//! The modified half-step: where turn and step extension put pelvis and swing sole.
+//! The modified half-step: where turn, step extension and sidestep put pelvis and swing sole.
 //!
 //! The paper adds offsets to hip and ankle joints (eqs. 1 and 2). What they do to its robot holds for any leg, seen as
 //! a line from hip to ankle.
@@ -7,6 +7,7 @@
 //!   about the swing leg.
 //! * An **extension** swings each leg about its ankle (support) or its hip (swing), in the plane of the leg; pelvis
 //!   and foot keep their orientation.
+//! * A **sidestep** swings them likewise, seen from ahead: the feet are further apart.
 //!
 //! The legs follow by inverse kinematics. For the paper's robot that gives the paper's offsets, to rounding.
 
@@ -50,7 +51,8 @@ impl ModifiedHalfStep {
     pub(crate) fn new(model: &PatternModel, walk: &Walk, progress: f64) -> Self {
         let turn = walk.turn().per_hip(progress).value;
         let reach = walk.extension().per_hip(progress).value;
-        Self::of_nominal(model, &Self::nominal(model, walk, progress), turn, reach)
+        let spread = walk.sidestep().per_hip(progress).value;
+        Self::of_nominal(model, &Self::nominal(model, walk, progress), turn, reach, spread)
     }
 
     fn nominal(model: &PatternModel, walk: &Walk, progress: f64) -> [Placed; 2] {
@@ -62,14 +64,14 @@ impl ModifiedHalfStep {
     /// * `nominal` – pelvis and swing foot
     /// * `turn` – offset of either leg about itself (rad)
     /// * `reach` – by which either leg swings ahead (rad)
-    fn of_nominal(model: &PatternModel, [pelvis, foot]: &[Placed; 2], turn: f64, reach: f64) -> Self {
+    /// * `spread` – by which either leg swings away from the other one (rad)
+    fn of_nominal(model: &PatternModel, [pelvis, foot]: &[Placed; 2], turn: f64, reach: f64, spread: f64) -> Self {
         let mechanism = &model.mechanism;
         let [support_hip, swing_hip] = model.reach.hips_in_pelvis;
         let [support_ankle, swing_ankle] = model.reach.ankles_in_foot;
 
         // The support leg, from the ground up.
-        let hip = pelvis.at(&support_hip);
-        let up = hip - support_ankle;
+        let up = rotation(&Vector3::x(), -spread) * (pelvis.at(&support_hip) - support_ankle);
         let axes = LegAxes::of(&up);
         let hip = support_ankle + rotation(&axes.across, reach) * up;
         let rotated = rotation(&axes.along, turn) * pelvis.rotation;
@@ -78,6 +80,7 @@ impl ModifiedHalfStep {
         // The swing leg, from the pelvis down.
         let to_pelvis = pelvis.rotation.transpose();
         let down = to_pelvis * (foot.at(&swing_ankle) - pelvis.origin) - swing_hip;
+        let down = rotation(&Vector3::x(), spread) * down;
         let axes = LegAxes::of(&-down);
         let turned = rotation(&axes.along, turn);
         let ankle = moved.at(&(swing_hip + turned * (rotation(&axes.across, -reach) * down)));
@@ -130,7 +133,14 @@ mod tests {
     fn walk(mechanism: &Mechanism, command: Command) -> Walk {
         let table = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/nominal_half_step.csv");
         let table = NominalTable::read_csv(table.as_ref()).unwrap();
-        let limits = Limits { turn_max: 0.6, speed_min: 0.5, speed_max: 1.5, extension_min: -0.2, extension_max: 0.2 };
+        let limits = Limits {
+            turn_max: 0.6,
+            speed_min: 0.5,
+            speed_max: 1.5,
+            extension_min: -0.2,
+            extension_max: 0.2,
+            sidestep_max: 0.3,
+        };
         let gait = GaitParameters { ramp: RampKind::Quintic, speed_ramp: Duration::from_millis(600), limits };
         Walk::new(Arc::new(table), mechanism, &gait, Start { command, ..Start::default() }).unwrap()
     }
@@ -140,8 +150,16 @@ mod tests {
     #[test]
     fn the_papers_robot_turns_and_reaches_by_the_papers_joint_offsets() {
         let mechanism = Mechanism::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism.toml")).unwrap();
-        for (turn, extension) in [(0.3, 0.0), (0.0, 0.15), (0.5, -0.1), (0.4, 0.2), (-0.3, 0.1)] {
-            let mut walk = walk(&mechanism, Command { turn, speed: 1.0, extension });
+        for (turn, extension, sidestep) in [
+            (0.3, 0.0, 0.0),
+            (0.0, 0.15, 0.0),
+            (0.0, 0.0, 0.2),
+            (0.5, -0.1, -0.1),
+            (0.4, 0.2, 0.0),
+            (-0.3, 0.1, 0.25),
+            (0.2, 0.1, 0.25),
+        ] {
+            let mut walk = walk(&mechanism, Command { turn, speed: 1.0, extension, sidestep });
             let model = PatternModel::new(&mechanism, walk.mirror(), walk.table());
             for _ in 0..4 {
                 for progress in [0.0, 0.2, 0.5, 0.77, 1.0] {
@@ -151,7 +169,7 @@ mod tests {
                     let sole = kinematics.sole_to_world(&mechanism, Side::Left);
                     let expected = SolePose::new(sole.translation.vector, &(sole.rotation * Vector3::x()));
                     let pelvis = kinematics.link_to_world(mechanism.pelvis());
-                    let at = format!("{turn} {extension} at {progress}");
+                    let at = format!("{turn} {extension} {sidestep} at {progress}");
                     assert!((found.swing_sole.position - expected.position).norm() < 1e-11, "{at}");
                     assert!((found.swing_sole.yaw - expected.yaw).abs() < 1e-11, "{at}");
                     assert!((found.pelvis - kinematics.rotation[mechanism.pelvis()]).norm() < 1e-11, "{at}");
@@ -168,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn without_turn_and_extension_the_half_step_is_the_nominal() {
+    fn without_modifications_the_half_step_is_the_nominal() {
         let mechanism = Mechanism::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism.toml")).unwrap();
         let walk = walk(&mechanism, Command::NOMINAL);
         let model = PatternModel::new(&mechanism, walk.mirror(), walk.table());

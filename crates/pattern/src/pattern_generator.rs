@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use gait::{RangeCheck, Walk};
-use interface::{Command, GaitChange, HalfStep};
+use interface::{Command, GaitChange, HalfStep, WalkPose, WalkVelocity};
 use model::{Joint, Mechanism, Motion};
 use nalgebra::Vector2;
 
@@ -92,6 +92,17 @@ impl PatternGenerator {
     /// the same revision.
     pub fn revision(&self) -> u64 {
         self.plan.revision()
+    }
+
+    /// The gait parameters of a steady walk at a velocity. They may be outside every range.
+    pub fn command_at(&self, velocity: &WalkVelocity) -> Command {
+        self.model.velocity.command(velocity, self.walk().limits())
+    }
+
+    /// Puts in force what the configured range admits of a change, as [`admit`](Gait::admit), but changes over to it
+    /// by a limited amount in each half-step. A start from a stand makes no nominal step first.
+    pub fn admit_gradually(&mut self, change: &GaitChange) -> RangeCheck {
+        self.plan.admit(&self.model, &self.execution.playback, change, true)
     }
 
     /// Plays the speed of a request from now on, if the robot walks. A plan for it must [follow](Self::adopt), or
@@ -194,7 +205,7 @@ impl PatternGenerator {
 
 impl Gait for PatternGenerator {
     fn admit(&mut self, request: &GaitChange) -> RangeCheck {
-        self.plan.admit(&self.model, &self.execution.playback, request)
+        self.plan.admit(&self.model, &self.execution.playback, request, false)
     }
 
     fn advance(&mut self, dt: f64) -> bool {
@@ -242,6 +253,15 @@ impl Gait for PatternGenerator {
             (GaitState::Walking | GaitState::Starting { .. }, false) => GaitPhase::Walking,
             (GaitState::InPlace { .. }, false) => GaitPhase::InPlace,
         }
+    }
+
+    fn landings(&self) -> [WalkPose; 2] {
+        let present = self.footprint();
+        let [first, second, third] = self.plan.footprints();
+        // Just before a support change the newest knot is on the other foot already.
+        let is_ahead = first.side != present.side;
+        let coming = if is_ahead { [first, second] } else { [second, third] };
+        coming.map(|footprint| present.sees(&footprint))
     }
 
     fn walk(&self) -> &Walk {
@@ -316,8 +336,14 @@ mod tests {
         let config = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config");
         let mechanism = Mechanism::load(config.join("mechanism.toml")).unwrap();
         let table = NominalTable::read_csv(&config.join("nominal_half_step.csv")).unwrap();
-        let limits =
-            Limits { turn_max: 0.5, speed_min: 0.6, speed_max: 1.4, extension_min: -0.14, extension_max: 0.14 };
+        let limits = Limits {
+            turn_max: 0.5,
+            speed_min: 0.6,
+            speed_max: 1.4,
+            extension_min: -0.14,
+            extension_max: 0.14,
+            sidestep_max: 0.2,
+        };
         let gait = GaitParameters { ramp: RampKind::Quintic, speed_ramp: Duration::from_millis(600), limits };
         let walk = Walk::new(Arc::new(table), &mechanism, &gait, Start::default()).unwrap();
         PatternGenerator::walking(&mechanism, walk)
@@ -332,7 +358,7 @@ mod tests {
         let mut generator = walking();
         advance(&mut generator, 1234);
         let mut other = generator.clone();
-        other.admit(&GaitChange { turn: Some(0.2), speed: Some(1.2), extension: None });
+        other.admit(&GaitChange { turn: Some(0.2), speed: Some(1.2), ..GaitChange::NONE });
         let before = generator.physical_motion();
         assert_ne!(generator.revision(), other.revision());
         generator.adopt(&other);

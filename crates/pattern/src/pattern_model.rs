@@ -9,6 +9,7 @@ use crate::knot::KNOT;
 use crate::lipm_residual::LipmResidual;
 use crate::preview_controller::PreviewController;
 use crate::proportions::PatternProportions;
+use crate::walk_velocity::VelocityMap;
 
 /// Knots of the ZMP reference: 1.8 s, after which e^(−6) is left of the influence of a reference.
 pub(crate) const KNOTS_PREVIEWED: usize = 180;
@@ -35,6 +36,10 @@ pub(crate) struct PatternModel {
     pub proportions: PatternProportions,
     /// The part of the nominal half-step's ZMP that the cart-table model leaves out.
     pub lipm_residual: LipmResidual,
+    /// Height of the hips over the ankles at the end of the nominal half-step (m).
+    pub hip_above_ankle: f64,
+    /// The relation of velocity and gait parameters.
+    pub velocity: VelocityMap,
     /// Displacement of the centre of mass per displacement of the pelvis while both feet stay (-).
     pub com_per_pelvis: f64,
     /// Plans the centre of mass over the feet.
@@ -51,6 +56,8 @@ impl PatternModel {
         let reach = LegReach::of(mechanism);
         // A jerk is a length per cubed time, and times grow as the root of lengths.
         let weight = JERK_WEIGHT * reach.scale().powi(3);
+        let end = Kinematics::fixed_base(&tree, &table.at(1.0).angles);
+        let hip = end.origin[tree.pelvis()].z + reach.hips_in_pelvis[0].z;
         let controller = |knots| PreviewController::new(lipm_residual.height_over_gravity, KNOT, knots, weight);
         Self {
             com_controller: controller(KNOTS_PREVIEWED),
@@ -60,6 +67,8 @@ impl PatternModel {
             legs: LegSolver::new(mechanism),
             reach,
             proportions: PatternProportions::of(mechanism),
+            hip_above_ankle: hip - mechanism.sole.ankle_height,
+            velocity: VelocityMap::new(mechanism, table),
             com_per_pelvis: com_per_pelvis(mechanism, &tree, table),
             tree,
             lipm_residual,

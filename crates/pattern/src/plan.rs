@@ -8,7 +8,7 @@ use nalgebra::Vector2;
 
 use crate::dynamics_filter::DynamicsFilter;
 use crate::foot_trajectory::FootTrajectory;
-use crate::footprint::Footprint;
+use crate::footprint::{Footprint, SolePose};
 use crate::footstep_plan::FootstepPlan;
 use crate::gait_state::{GaitState, Goal};
 use crate::incremental_replan::{IncrementalReplan, PlanChange};
@@ -27,6 +27,8 @@ pub(crate) struct Plan {
     /// Correction of the centre of mass for the dynamics of the whole body, along x and y of the walk frame.
     correction: [CartState; 2],
     body: WholeBodyIk,
+    /// Where the support foot of the newest knot lands after the other one, in support coordinates of that one.
+    landing_after: SolePose,
     /// Differs whenever the plan does.
     revision: u64,
     /// Whether a leg was too short for the newest knot.
@@ -50,6 +52,7 @@ impl Plan {
             dynamics_filter,
             correction: [CartState::zeros(); 2],
             body: WholeBodyIk::new(model, &motion.angles),
+            landing_after: feet.footsteps.landing_after(model),
             revision: 0,
             is_leg_out_of_reach: false,
             foot_trajectory: feet,
@@ -64,6 +67,13 @@ impl Plan {
     /// The footsteps at the newest knot.
     pub(crate) fn footsteps(&self) -> &FootstepPlan {
         &self.foot_trajectory.footsteps
+    }
+
+    /// The support foot of the newest knot, and where the feet land then.
+    pub(crate) fn footprints(&self) -> [Footprint; 3] {
+        let feet = &self.footsteps().feet;
+        let next = feet.footprint.next(&feet.landing);
+        [feet.footprint, next, next.next(&self.landing_after)]
     }
 
     /// The walk at the newest knot.
@@ -89,10 +99,17 @@ impl Plan {
     /// Puts in force what the limits of the gait grant of a request, and plans it; see [`Walk::admit`].
     ///
     /// * `playback` – whose speed override, if there is one, the plan takes over
-    pub(crate) fn admit(&mut self, model: &PatternModel, playback: &Playback, request: &GaitChange) -> RangeCheck {
+    /// * `is_gradual` – whether the walk changes over by a limited amount in each half-step
+    pub(crate) fn admit(
+        &mut self,
+        model: &PatternModel,
+        playback: &Playback,
+        request: &GaitChange,
+        is_gradual: bool,
+    ) -> RangeCheck {
         let before = self.command();
         let footsteps = &mut self.foot_trajectory.footsteps;
-        let admission = footsteps.admit(request);
+        let admission = footsteps.admit(request, is_gradual);
         let speed = footsteps.walk.speed().target();
         if speed != before.speed
             && let Some(overriding) = playback.overriding_speed_at_newest(speed)
@@ -146,6 +163,7 @@ impl Plan {
         // The change in the making is made at once.
         self.replan.cancel().apply(model, &mut self.foot_trajectory);
         self.dynamics_filter.recompute(model, &self.foot_trajectory);
+        self.landing_after = self.footsteps().landing_after(model);
         self.revision += 1;
     }
 
@@ -169,9 +187,14 @@ impl Plan {
         if changes_support {
             self.body.change_support(model);
         }
-        if let Some((foot_trajectory, dynamics_filter)) = self.replan.pass_knot(model) {
+        let replanned = self.replan.pass_knot(model);
+        let is_replanned = replanned.is_some();
+        if let Some((foot_trajectory, dynamics_filter)) = replanned {
             self.foot_trajectory.clone_from(foot_trajectory);
             self.dynamics_filter.clone_from(dynamics_filter);
+        }
+        if changes_support || is_replanned {
+            self.landing_after = self.footsteps().landing_after(model);
         }
         changes_support
     }

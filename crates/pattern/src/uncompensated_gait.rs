@@ -5,10 +5,11 @@
 
 use dynamics::{Kinematics, Tree};
 use gait::{RangeCheck, Walk};
-use interface::{Command, GaitChange, HalfStep};
-use model::{ComState, Mechanism, Motion};
+use interface::{Command, GaitChange, HalfStep, WalkPose};
+use model::{ComState, Mechanism, Motion, Side};
 use nalgebra::{Vector2, Vector3};
 
+use crate::footprint::{Footprint, SolePose};
 use crate::gait::Gait;
 use crate::stop_in_stride::StopInStride;
 use crate::{GaitPhase, Goal, Stance};
@@ -16,6 +17,7 @@ use crate::{GaitPhase, Goal, Stance};
 /// A walk without a plan for the centre of mass.
 #[derive(Clone, Debug)]
 pub struct UncompensatedGait {
+    mechanism: Mechanism,
     tree: Tree,
     walk: Walk,
     goal: Goal,
@@ -26,7 +28,7 @@ pub struct UncompensatedGait {
 impl UncompensatedGait {
     /// A walk in stride, at the beginning of a half-step.
     pub fn new(mechanism: &Mechanism, walk: Walk) -> Self {
-        Self { tree: Tree::new(mechanism), walk, goal: Goal::Walk, stop: None }
+        Self { mechanism: mechanism.clone(), tree: Tree::new(mechanism), walk, goal: Goal::Walk, stop: None }
     }
 
     /// Walks on, or stops at the next support change. It cannot step in place: it walks instead.
@@ -83,6 +85,17 @@ impl Gait for UncompensatedGait {
             (None, Goal::Stand(_)) => GaitPhase::Stopping,
             (None, Goal::Walk | Goal::InPlace) => GaitPhase::Walking,
         }
+    }
+
+    fn landings(&self) -> [WalkPose; 2] {
+        let kinematics = Kinematics::fixed_base_up_to_left_foot(&self.tree, &self.walk.motion_at(1.0).angles);
+        let sole = kinematics.sole_to_world(&self.mechanism, Side::Left);
+        let landing = SolePose::new(sole.translation.vector, &(sole.rotation * Vector3::x()));
+        let present = Footprint::first(self.walk.half_step().support);
+        let next = present.next(&landing);
+        // The support foot steps as far as the other one, and is parallel to it again.
+        let back = SolePose { yaw: -landing.yaw, ..landing };
+        [next, next.next(&back)].map(|footprint| present.sees(&footprint))
     }
 
     fn walk(&self) -> &Walk {

@@ -7,8 +7,11 @@ use std::ops::Range;
 
 use wire::{Layout, NumberType};
 
+use crate::schema;
+
 /// Layouts of earlier versions that can be read.
-const OLDER: [&str; 2] = ["halfstep.Request.v2", "halfstep.Reply.v2"];
+const OLDER: [&str; 5] =
+    ["halfstep.Request.v2", "halfstep.Request.v3", "halfstep.Reply.v2", "halfstep.Reply.v3", "halfstep.Report.v2"];
 
 /// How a message of an earlier version becomes one of this version.
 pub(crate) struct OlderLayout {
@@ -33,12 +36,11 @@ impl OlderLayout {
         for line in lines {
             let (kind, name) = line.split_once(' ')?;
             let field = layout.fields.iter().find(|field| field.name == name)?;
-            let (number, size) = match field.number {
-                NumberType::U32 => ("uint32", 4),
-                NumberType::U64 => ("uint64", 8),
-                NumberType::F64 => ("float64", 8),
-            };
-            if field.count.is_some() || kind != number {
+            let size = match field.number {
+                NumberType::U32 => 4,
+                NumberType::U64 | NumberType::F64 => 8,
+            } * field.count.unwrap_or(1);
+            if kind != schema::type_of(field) {
                 return None;
             }
             fields.push((from_size..from_size + size, field.offset));
@@ -65,7 +67,6 @@ mod tests {
     use wire::{ReplyMessage, RequestMessage, WireLayout};
 
     use super::*;
-    use crate::schema;
 
     /// The schemas of version 0.1.0.
     const REQUEST: &str = "# halfstep.Request.v2\nuint64 not_before\nuint32 present\nuint32 intent\nuint32 source\n\
@@ -90,6 +91,8 @@ mod tests {
             turn: 0.1,
             speed: 1.2,
             extension: 0.3,
+            sidestep: 0.0,
+            velocity: [0.0; 3],
             age_limit: 4.5,
             id: 0,
             expires_ns: 0,

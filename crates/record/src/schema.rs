@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use wire::{Layout, NumberType};
+use wire::{Field, Layout, NumberType};
 
 /// MCAP's name for the encoding of [`text`].
 pub(crate) const SCHEMA_ENCODING: &str = "ros2msg";
@@ -20,16 +20,21 @@ pub(crate) fn name(layout: &Layout) -> String {
 pub(crate) fn text(layout: &Layout) -> String {
     let mut text = format!("# {}\n", layout.type_name);
     for field in &layout.fields {
-        let number = match field.number {
-            NumberType::U32 => "uint32",
-            NumberType::U64 => "uint64",
-            NumberType::F64 => "float64",
-        };
-        let many = field.count.map_or(String::new(), |count| format!("[{count}]"));
         // Writing to a String cannot fail.
-        let _ = writeln!(text, "{number}{many} {}", field.name);
+        let _ = writeln!(text, "{} {}", type_of(field), field.name);
     }
     text
+}
+
+/// The type of a field: `float64[20]`.
+pub(crate) fn type_of(field: &Field) -> String {
+    let number = match field.number {
+        NumberType::U32 => "uint32",
+        NumberType::U64 => "uint64",
+        NumberType::F64 => "float64",
+    };
+    let many = field.count.map_or(String::new(), |count| format!("[{count}]"));
+    format!("{number}{many}")
 }
 
 #[cfg(test)]

@@ -47,7 +47,7 @@ impl Role {
     /// The memory that connecting takes at most (bytes), with what the other side creates for this process.
     const fn need(self) -> u64 {
         match self {
-            Role::Controller => 2 << 20,
+            Role::Controller => 3 << 20,
             Role::Plant => 512 << 10,
             Role::Operator => 1 << 20,
             Role::Observer => 64 << 10,

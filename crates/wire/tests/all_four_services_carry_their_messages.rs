@@ -71,7 +71,7 @@ fn each_request_gets_its_own_reply() {
 }
 
 fn reply_to(turn: f64) -> ReplyMessage {
-    let granted = Command { turn, speed: 1.0, extension: 0.0 };
+    let granted = Command { turn, ..Command::NOMINAL };
     ReplyMessage::from(&Reply::refused(Reason::CannotRestart, 7, granted, None))
 }
 

@@ -9,7 +9,7 @@ from enum import IntEnum, IntFlag
 
 from .message import Message
 
-PROTOCOL = 4
+PROTOCOL = 5
 """The version of all layouts and meanings."""
 
 
@@ -70,6 +70,7 @@ class Reason(IntEnum):
     IN_PLACE = 25  # in place the robot steps without extension and at most at speed 1: it takes effect once it walks
     EXPIRED = 26  # it expired before it could take effect
     NOT_IN_STAND = 27  # the robot is not in a stand: put its feet side by side first
+    SIDESTEP_LIMIT = 28  # the sidestep is outside the permitted range
 
 
 class Mode(IntEnum):
@@ -160,7 +161,7 @@ class Measurement(Message):
 
 
 class Request(Message):
-    """`halfstep.Request.v3`, 72 bytes."""
+    """`halfstep.Request.v4`, 104 bytes."""
 
     not_before: int
     present: int
@@ -170,6 +171,8 @@ class Request(Message):
     turn: float
     speed: float
     extension: float
+    sidestep: float
+    velocity: Array[c_double]
     age_limit: float
     id: int
     expires_ns: int
@@ -183,6 +186,8 @@ class Request(Message):
         ("turn", c_double),
         ("speed", c_double),
         ("extension", c_double),
+        ("sidestep", c_double),
+        ("velocity", c_double * 3),
         ("age_limit", c_double),
         ("id", c_uint64),
         ("expires_ns", c_uint64),
@@ -191,11 +196,11 @@ class Request(Message):
     @staticmethod
     def type_name() -> str:
         """What shared memory calls it."""
-        return "halfstep.Request.v3"
+        return "halfstep.Request.v4"
 
 
 class Reply(Message):
-    """`halfstep.Reply.v3`, 120 bytes."""
+    """`halfstep.Reply.v4`, 168 bytes."""
 
     id: int
     verdict: int
@@ -204,6 +209,10 @@ class Reply(Message):
     turn: float
     speed: float
     extension: float
+    sidestep: float
+    step_ahead: float
+    step_aside: float
+    velocity: Array[c_double]
     intent: int
     known: int
     joint: int
@@ -226,6 +235,10 @@ class Reply(Message):
         ("turn", c_double),
         ("speed", c_double),
         ("extension", c_double),
+        ("sidestep", c_double),
+        ("step_ahead", c_double),
+        ("step_aside", c_double),
+        ("velocity", c_double * 3),
         ("intent", c_uint32),
         ("known", c_uint32),
         ("joint", c_uint32),
@@ -244,11 +257,11 @@ class Reply(Message):
     @staticmethod
     def type_name() -> str:
         """What shared memory calls it."""
-        return "halfstep.Reply.v3"
+        return "halfstep.Reply.v4"
 
 
 class Report(Message):
-    """`halfstep.Report.v2`, 264 bytes."""
+    """`halfstep.Report.v3`, 392 bytes."""
 
     tick: int
     time_ns: int
@@ -259,6 +272,7 @@ class Report(Message):
     speed: float
     turn: float
     extension: float
+    sidestep: float
     zmp_in_support: Array[c_double]
     zmp_planned: Array[c_double]
     margin: float
@@ -268,6 +282,11 @@ class Report(Message):
     com_velocity_in_support: Array[c_double]
     com_planned: Array[c_double]
     com_velocity_planned: Array[c_double]
+    pose: Array[c_double]
+    walk_velocity: Array[c_double]
+    support_sole: Array[c_double]
+    landing: Array[c_double]
+    landing_after: Array[c_double]
     faults: int
     missed: int
     compute_ns: int
@@ -282,6 +301,7 @@ class Report(Message):
         ("speed", c_double),
         ("turn", c_double),
         ("extension", c_double),
+        ("sidestep", c_double),
         ("zmp_in_support", c_double * 2),
         ("zmp_planned", c_double * 2),
         ("margin", c_double),
@@ -291,6 +311,11 @@ class Report(Message):
         ("com_velocity_in_support", c_double * 3),
         ("com_planned", c_double * 3),
         ("com_velocity_planned", c_double * 3),
+        ("pose", c_double * 3),
+        ("walk_velocity", c_double * 3),
+        ("support_sole", c_double * 3),
+        ("landing", c_double * 3),
+        ("landing_after", c_double * 3),
         ("faults", c_uint32),
         ("missed", c_uint32),
         ("compute_ns", c_uint64),
@@ -299,4 +324,4 @@ class Report(Message):
     @staticmethod
     def type_name() -> str:
         """What shared memory calls it."""
-        return "halfstep.Report.v2"
+        return "halfstep.Report.v3"

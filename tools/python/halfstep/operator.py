@@ -14,7 +14,7 @@ from .errors import HalfstepError, NoController, TimedOut
 from .instance import Agreement, Instance
 from .messages import Fault, Intent, Lifetime, Reason, Reply, Report, Request, Source, Verdict
 
-_TURN, _SPEED, _EXTENSION, _INTENT = 1, 2, 4, 8
+_TURN, _SPEED, _EXTENSION, _INTENT, _SIDESTEP, _VELOCITY = 1, 2, 4, 8, 32, 64
 _MARGIN, _FAULT = 4, 8
 _GLANCE_S = 0.001
 
@@ -33,6 +33,14 @@ class Answer:
     """Granted."""
     extension: float
     """Granted [rad]."""
+    sidestep: float
+    """Granted [rad]."""
+    step_ahead: float
+    """How far ahead of the other foot each foot lands then [m]."""
+    step_aside: float
+    """How far a full step goes aside then [m]."""
+    velocity: tuple[float, float, float]
+    """The mean velocity then: ahead, left [m/s], turning to the left [rad/s]."""
     predicted_margin: float | None
     """Least distance of the zero-moment point to the sole's edge foreseen for what was granted [m]."""
     latched: Fault | None
@@ -55,6 +63,10 @@ def answer(reply: Reply) -> Answer:
         reply.turn,
         reply.speed,
         reply.extension,
+        reply.sidestep,
+        reply.step_ahead,
+        reply.step_aside,
+        (reply.velocity[0], reply.velocity[1], reply.velocity[2]),
         reply.predicted_margin if reply.known & _MARGIN else None,
         Fault(reply.fault) if reply.known & _FAULT else None,
         reply.fault_time if reply.known & _FAULT else None,
@@ -96,6 +108,10 @@ class Operator:
         turn_deg: float | None = None,
         speed: float | None = None,
         extension_deg: float | None = None,
+        sidestep_deg: float | None = None,
+        vx: float | None = None,
+        vy: float | None = None,
+        wz_deg_s: float | None = None,
         intent: Intent | None = None,
         not_before: int = 0,
         silence_s: float | None = None,
@@ -103,11 +119,18 @@ class Operator:
     ) -> Answer:
         """Asks for a set that takes effect whole, and waits for the answer.
 
+        Either gait parameters or a velocity, `vx` ahead and `vy` to the left [m/s] and `wz_deg_s` turning to the left [°/s];
+        what is left out of a velocity is 0, and zero is a stand.
+
         `not_before` is the controller's tick before which it must not take effect: 0 is at once. With `silence_s` this
         program is in command from now on, those after it are refused, and the walk comes to a stand when it asks nothing
         for that long; without, what is asked lasts until another request changes it. What the controller has not begun with
         after `timeout_s` expires: it is not carried out later.
         """
+        velocity = (vx, vy, None if wz_deg_s is None else math.radians(wz_deg_s))
+        is_velocity = any(part is not None for part in velocity)
+        if is_velocity and any(value is not None for value in (turn_deg, speed, extension_deg, sidestep_deg)):
+            raise ValueError("a velocity and gait parameters in one request: ask for either")
         expires_ns = time.monotonic_ns() + int(timeout_s * 1e9)
         request = Request(not_before=not_before, source=Source.PROGRAM, expires_ns=expires_ns)
         if silence_s is not None:
@@ -116,11 +139,15 @@ class Operator:
             (_TURN, "turn", turn_deg if turn_deg is None else math.radians(turn_deg)),
             (_SPEED, "speed", speed),
             (_EXTENSION, "extension", extension_deg if extension_deg is None else math.radians(extension_deg)),
+            (_SIDESTEP, "sidestep", sidestep_deg if sidestep_deg is None else math.radians(sidestep_deg)),
             (_INTENT, "intent", intent),
         ):
             if value is not None:
                 request.present |= bit
                 setattr(request, field, value)
+        if is_velocity:
+            request.present |= _VELOCITY
+            request.velocity[:] = [part or 0.0 for part in velocity]
         return self._wait(self._client.send_copy(request), timeout_s)
 
     def _wait(self, pending: Any, timeout_s: float) -> Answer:

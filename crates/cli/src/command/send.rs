@@ -3,7 +3,7 @@
 //! The request stays in effect until another one changes it, and holds no authority; with `--for` it holds authority
 //! for that time, after which the robot stops.
 
-use interface::{GaitChange, Intent, Lifetime, Request, Source, Verdict};
+use interface::{GaitChange, Intent, Lifetime, Request, Source, Verdict, WalkVelocity};
 use std::time::Duration;
 
 use clap::Subcommand;
@@ -50,9 +50,29 @@ enum RequestKind {
     /// Set the step extension
     #[command(allow_negative_numbers = true)]
     Extend {
-        /// Degrees at the hips, negative for shorter steps
+        /// Degrees at the hips, negative for shorter steps, far below zero for steps backward
         #[arg(value_parser = number)]
         degrees: f64,
+    },
+    /// Set the sidestep per full step
+    #[command(allow_negative_numbers = true)]
+    Sidestep {
+        /// Degrees at the hips, positive to the left
+        #[arg(value_parser = number)]
+        degrees: f64,
+    },
+    /// Walk at a velocity; 0 is a stand
+    #[command(allow_negative_numbers = true)]
+    Velocity {
+        /// Ahead, in m/s
+        #[arg(value_parser = number, value_name = "VX")]
+        ahead: f64,
+        /// To the left, in m/s
+        #[arg(value_parser = number, value_name = "VY", default_value_t = 0.0)]
+        left: f64,
+        /// Turning to the left, in degrees per second
+        #[arg(value_parser = number, value_name = "WZ", default_value_t = 0.0)]
+        turn: f64,
     },
     /// Start walking, or walk on
     Walk,
@@ -115,6 +135,12 @@ impl RequestKind {
             RequestKind::Speed { factor } => change(GaitChange { speed: Some(factor), ..GaitChange::NONE }),
             RequestKind::Extend { degrees } => {
                 change(GaitChange { extension: Some(degrees.to_radians()), ..GaitChange::NONE })
+            }
+            RequestKind::Sidestep { degrees } => {
+                change(GaitChange { sidestep: Some(degrees.to_radians()), ..GaitChange::NONE })
+            }
+            RequestKind::Velocity { ahead, left, turn } => {
+                Request { velocity: Some(WalkVelocity { ahead, left, turn: turn.to_radians() }), ..nothing }
             }
             RequestKind::Walk => intent(Intent::Walk),
             RequestKind::InPlace => intent(Intent::InPlace),

@@ -2,6 +2,7 @@
 
 use interface::{Fault, Faults, Measurement};
 use model::ComState;
+use nalgebra::UnitQuaternion;
 use pattern::GaitPhase;
 use stabilizer::{BalanceState, ComPrediction, SupportFrameMeasurement, estimate_com};
 
@@ -35,19 +36,24 @@ impl Controller {
             faults.insert(Fault::Fallen);
             self.state.fall();
         }
-        let (measurement, up_in_trunk) = valid?;
+        let support = self.pattern.gait().half_step().support;
+        let Some((measurement, up_in_trunk)) = valid else {
+            self.odometry.update(&self.mechanism, support, self.reference.kinematics(), None, dt);
+            return None;
+        };
         self.measured_angles = Some(measurement.angles);
         if self.validator.has_found_robot() {
             self.find_robot(&measurement.angles);
         }
         let gait = self.pattern.gait_mut();
-        let support = gait.half_step().support;
         let mut measured = SupportFrameMeasurement::new(support, gait.walk().mirror(), measurement, up_in_trunk);
         // An orientation that is known to be askew still serves to come to a stand.
         if let Some(askew) = self.gravity.askew(support) {
             measured.up_in_trunk = (measured.up_in_trunk + askew.push(0.0)).normalize();
         }
         self.kinematics.compute_fixed_base(&self.tree, &measured.angles);
+        let orientation = UnitQuaternion::new_normalize(measurement.orientation);
+        self.odometry.update(&self.mechanism, support, &self.kinematics, Some(&orientation), dt);
         self.contact = self.zmp_estimator.update(&measured, &self.kinematics, &self.mechanism, dt);
         if self.contact.zmp.is_none() {
             faults.insert(Fault::InTheAir);

@@ -127,7 +127,11 @@ impl Controller {
                 self.admission.open(generator, request);
             }
             Pattern::Uncompensated(gait) => {
-                let decision = Decision::at_once(&gait.admit(&request.gait));
+                let limits = gait.walk().limits();
+                let change = request
+                    .velocity
+                    .map_or(request.gait, |velocity| self.velocity_map.command(&velocity, limits).into());
+                let decision = Decision::at_once(&gait.admit(&change));
                 if decision.verdict != Verdict::Refused
                     && let Some(intent) = request.intent
                 {

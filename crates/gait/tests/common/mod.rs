@@ -31,6 +31,7 @@ pub(crate) fn parameters() -> GaitParameters {
         speed_max: 1.4,
         extension_min: -8_f64.to_radians(),
         extension_max: 8_f64.to_radians(),
+        sidestep_max: 15_f64.to_radians(),
     };
     GaitParameters { ramp: RampKind::Quintic, speed_ramp: Duration::from_millis(600), limits }
 }
@@ -160,9 +161,6 @@ fn requests() -> impl Strategy<Value = GaitChange> {
             1 => Just(Some(0.0)),
         ]
     };
-    (value(-0.7..0.7), value(0.4..1.6), value(-0.2..0.2)).prop_map(|(turn, speed, extension)| GaitChange {
-        turn,
-        speed,
-        extension,
-    })
+    let values = (value(-0.7..0.7), value(0.4..1.6), value(-0.2..0.2), value(-0.4..0.4));
+    values.prop_map(|(turn, speed, extension, sidestep)| GaitChange { turn, speed, extension, sidestep })
 }

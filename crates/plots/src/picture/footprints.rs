@@ -62,7 +62,7 @@ pub fn footprints(log: &RunLog, mechanism: &Mechanism) -> String {
     let measures = log.measures(mechanism);
     let title = format!(
         "Footprints: {} half-steps, {:.1} m, heading {:+.0}°",
-        measures.half_steps, measures.distance_m, measures.heading_deg
+        measures.half_steps, measures.distance_m, measures.truth.heading_deg
     );
     let title = title + &fall.title();
     let scale = (CANVAS / chart.span().max(0.1)).clamp(*SCALE.start(), *SCALE.end());

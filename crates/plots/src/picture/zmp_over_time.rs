@@ -31,6 +31,7 @@ pub fn zmp_over_time(log: &RunLog, mechanism: &Mechanism) -> String {
     let mut angles = TimePanel::new("command [°]", &[-5.0, 5.0]);
     angles.draw_of("turn [°]", Pen::solid(RIGHT, 2.0), rows, |row| Some(row.turn_command.to_degrees()));
     angles.draw_of("extension [°]", Pen::solid(LEFT, 2.0), rows, |row| Some(row.extension_command.to_degrees()));
+    angles.draw_of("sidestep [°]", Pen::solid(COM, 2.0), rows, |row| Some(row.sidestep_command.to_degrees()));
 
     let mut speed = TimePanel::new("speed c [1]", &[0.9, 1.1]);
     speed.draw_of("speed in force", Pen::dashed(PLANNED, 1.4), rows, |row| Some(row.speed_command));

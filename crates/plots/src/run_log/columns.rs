@@ -1,6 +1,6 @@
 //! Writes fields that are more than a number as columns of a CSV file; for serde's `serialize_with`.
 
-use interface::AddedAngles;
+use interface::{AddedAngles, WalkPose};
 use model::{ComState, JointVector};
 use nalgebra::{Isometry3, Vector2, Vector3};
 use serde::{Serialize, Serializer};
@@ -41,6 +41,11 @@ pub(super) fn added_angles<S: Serializer>(added: &Option<AddedAngles>, serialize
 /// An angle (rad) in degrees.
 pub(super) fn degrees<S: Serializer>(angle: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     angle.to_degrees().serialize(serializer)
+}
+
+/// A pose on the floor as x, y (m) and heading (rad).
+pub(super) fn walk_pose<S: Serializer>(pose: &WalkPose, serializer: S) -> Result<S::Ok, S::Error> {
+    [pose.x, pose.y, pose.heading].serialize(serializer)
 }
 
 /// A flag as 0 or 1, which a spreadsheet can plot.

@@ -6,7 +6,7 @@ use model::Mechanism;
 use nalgebra::Vector2;
 use serde::Serialize;
 
-use super::{Fall, FootPlacement, RunLog};
+use super::{EndPose, Fall, FootPlacement, RunLog};
 
 /// A run in numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -16,9 +16,12 @@ pub struct Measures {
     /// Walked distance (m): the length of the line through the middles between consecutive footprints. So the sway of
     /// the body from foot to foot does not count, and a half-step of the nominal counts its step length.
     pub distance_m: f64,
-    /// Change of heading (deg), positive to the left, full circles included. The walk's heading is the mean of two
-    /// consecutive footprints', so that a half-finished turn counts half.
-    pub heading_deg: f64,
+    /// Where the controller estimates to have come.
+    #[serde(flatten)]
+    pub estimated: EndPose,
+    /// Where the robot has come.
+    #[serde(rename = "true")]
+    pub truth: EndPose,
     /// Least margin of the measured ZMP (mm) away from support changes, at which it moves from foot to foot; `None` if
     /// it was never measured.
     pub min_margin_mm: Option<f64>,
@@ -39,7 +42,8 @@ impl RunLog {
         Measures {
             half_steps: done.map_or(0, |(first, last)| last.half_step.saturating_sub(first.half_step)),
             distance_m: distance(&prints),
-            heading_deg: heading_change(&prints).to_degrees(),
+            estimated: self.estimated_end(),
+            truth: self.true_end(mechanism, heading_change(&prints)),
             min_margin_mm: margins.min_by(f64::total_cmp).map(|margin| margin * 1e3),
             falls: self.falls().count(),
             fall: self.first_fall(mechanism),
@@ -61,7 +65,8 @@ fn distance(prints: &[FootPlacement]) -> f64 {
     middles.windows(2).fold(0.0, |sum, pair| sum + (pair[1] - pair[0]).norm())
 }
 
-/// Change of the mean heading of two consecutive footprints, from the first pair to the last (rad).
+/// Change of the mean heading of two consecutive footprints, from the first pair to the last (rad): a half-finished
+/// turn counts half.
 fn heading_change(prints: &[FootPlacement]) -> f64 {
     // No foot turns by half a circle from one footprint to the next.
     let turns: Vec<f64> = prints.windows(2).map(|pair| to_half_circle(pair[1].heading() - pair[0].heading())).collect();
@@ -83,7 +88,7 @@ mod tests {
         // The first middle lies between both feet at rest, the second half a step ahead, the others a step apart.
         assert!((measures.distance_m - (0.125 + 7.0 * 0.25)).abs() < 1e-12, "{measures:?}");
         assert_eq!((measures.half_steps, measures.falls), (8, 0));
-        assert!(measures.heading_deg.abs() < 1e-12);
+        assert!(measures.truth.heading_deg.abs() < 1e-9);
         assert!(measures.min_margin_mm.is_some_and(|margin| (margin - 20.0).abs() < 1e-12));
     }
 
@@ -100,7 +105,7 @@ mod tests {
     #[test]
     fn heading_counts_beyond_a_full_circle_to_either_side() {
         for turn_deg in [10.0_f64, -10.0] {
-            let heading = log(45, turn_deg.to_radians()).measures(&mechanism()).heading_deg;
+            let heading = super::heading_change(&log(45, turn_deg.to_radians()).footprints(&mechanism())).to_degrees();
             // From the mean of the first two prints, 0° and 0°, to that of the last two, 440° and 450°.
             assert!((heading - 44.5 * turn_deg).abs() < 1e-9, "{heading}");
         }

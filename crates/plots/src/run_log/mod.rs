@@ -7,6 +7,7 @@
 mod columns;
 mod csv_file;
 mod each_row;
+mod end_pose;
 mod fall;
 mod footprint;
 mod from_recording;
@@ -20,6 +21,7 @@ pub(crate) mod synthetic;
 mod thinner;
 
 pub use csv_file::{CsvError, write_csv};
+pub use end_pose::EndPose;
 pub use fall::Fall;
 pub use footprint::FootPlacement;
 pub use log::RunLog;

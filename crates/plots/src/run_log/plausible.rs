@@ -31,7 +31,7 @@ impl PlantRow {
 impl ControllerRow {
     /// The row, if it can be drawn; without the quantities that alone cannot.
     pub(super) fn plausible(mut self) -> Option<Self> {
-        let commands = [self.turn_command, self.speed_command, self.extension_command];
+        let commands = [self.turn_command, self.speed_command, self.extension_command, self.sidestep_command];
         let state = [self.progress, self.speed, self.lean_roll, self.lean_pitch];
         let is_plausible = within(LARGE, commands.iter().chain(&state));
         self.zmp_measured = near(self.zmp_measured);

@@ -1,6 +1,6 @@
 //! Rows of the log: the plant and the controller at one tick.
 
-use interface::AddedAngles;
+use interface::{AddedAngles, WalkPose};
 use model::{ComState, Joint, JointVector, Side};
 use nalgebra::{Isometry3, Vector2, Vector3};
 use serde::Serialize;
@@ -72,6 +72,9 @@ pub struct ControllerRow {
     /// Step extension `β` in force (rad); in degrees in the file.
     #[serde(serialize_with = "columns::degrees")]
     pub extension_command: f64,
+    /// Sidestep `γ` in force (rad); in degrees in the file.
+    #[serde(serialize_with = "columns::degrees")]
+    pub sidestep_command: f64,
     /// Measured ZMP in support coordinates (m); `None` if the feet carry too little.
     #[serde(serialize_with = "columns::maybe_point")]
     pub zmp_measured: Option<Vector2<f64>>,
@@ -96,6 +99,9 @@ pub struct ControllerRow {
     /// Estimated centre of mass, likewise; `None` if the feet carry too little, and in the tick of a support change.
     #[serde(serialize_with = "columns::centre_of_mass")]
     pub com_measured: Option<ComState>,
+    /// The middle between both soles in the walk frame, as the controller estimates it (m, rad).
+    #[serde(serialize_with = "columns::walk_pose")]
+    pub walk_pose: WalkPose,
     /// One bit for each fault present.
     pub faults: u32,
     /// Computing time of the tick (ns).
@@ -138,7 +144,7 @@ impl CsvRow for ControllerRow {
 
     fn columns() -> Vec<String> {
         let place = ["t_s", "tick", "mode", "support", "half_step", "progress"];
-        let command = ["speed", "turn_command_deg", "speed_command", "extension_command_deg"];
+        let command = ["speed", "turn_command_deg", "speed_command", "extension_command_deg", "sidestep_command_deg"];
         let balance = ["zmp_measured_x_m", "zmp_measured_y_m", "zmp_planned_x_m", "zmp_planned_y_m", "margin_m"];
         let lean = ["lean_roll_deg", "lean_pitch_deg"];
         let added =
@@ -146,7 +152,7 @@ impl CsvRow for ControllerRow {
         let com = ["planned", "measured"].into_iter().flat_map(|which| {
             ["x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s"].map(|component| format!("com_{which}_{component}"))
         });
-        let health = ["faults", "compute_ns", "missed"].map(String::from);
+        let health = ["walk_x_m", "walk_y_m", "walk_heading_rad", "faults", "compute_ns", "missed"].map(String::from);
         let before = place.into_iter().chain(command).chain(balance).chain(lean).map(String::from);
         before.chain(added).chain(com).chain(health).collect()
     }

@@ -1,6 +1,7 @@
 //! For tests: the log of a robot whose joints do not move while its soles go along a line or a circle.
 
 use config::Config;
+use interface::WalkPose;
 use model::{JointVector, Mechanism, Side};
 use nalgebra::{Isometry3, Vector2, Vector3};
 
@@ -47,6 +48,7 @@ pub(crate) fn log(half_steps: u64, turn: f64) -> RunLog {
             turn_command: 0.0,
             speed_command: 1.0,
             extension_command: 0.0,
+            sidestep_command: 0.0,
             zmp_measured: Some(Vector2::new(0.01, -0.02)),
             zmp_planned: None,
             margin: Some(0.02),
@@ -55,6 +57,7 @@ pub(crate) fn log(half_steps: u64, turn: f64) -> RunLog {
             added: None,
             com_planned: None,
             com_measured: None,
+            walk_pose: WalkPose::default(),
             faults: 0,
             compute_ns: 1234,
             missed: 0,

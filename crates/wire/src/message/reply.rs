@@ -1,7 +1,10 @@
 //! Reply, controller → operator: what became of a request, and why.
 
 use iceoryx2::prelude::ZeroCopySend;
-use interface::{ActiveLimit, Command, ControlAuthority, Intent, LatchedFault, Mode, Rejection, Reply, Sensor};
+use interface::{
+    ActiveLimit, Command, ControlAuthority, Intent, LatchedFault, Mode, Rejection, Reply, Sensor, SteadyWalk,
+    WalkVelocity,
+};
 use model::Joint;
 
 use super::MessageFault;
@@ -9,7 +12,7 @@ use super::fault::Check;
 
 /// A [`Reply`] as it lies in shared memory.
 #[derive(Clone, Copy, Debug, PartialEq, ZeroCopySend)]
-#[type_name("halfstep.Reply.v3")]
+#[type_name("halfstep.Reply.v4")]
 #[repr(C)]
 pub struct ReplyMessage {
     /// The request's `id`.
@@ -26,6 +29,14 @@ pub struct ReplyMessage {
     pub speed: f64,
     /// `β` then (rad).
     pub extension: f64,
+    /// `γ` then (rad).
+    pub sidestep: f64,
+    /// How far ahead of the other foot each foot lands then (m).
+    pub step_ahead: f64,
+    /// How far a full step goes aside then (m), positive to the left.
+    pub step_aside: f64,
+    /// The mean velocity then: ahead, left (m/s), turning to the left (rad/s).
+    pub velocity: [f64; 3],
     /// The [`Intent`] then, 0 if there is none.
     pub intent: u32,
     /// Which of the following are known: [`BOUND`](Self::BOUND) is `joint`, `value` and `limit`,
@@ -123,6 +134,15 @@ impl ReplyMessage {
                 turn: check.number("turn", self.turn)?,
                 speed: check.number("speed", self.speed)?,
                 extension: check.number("extension", self.extension)?,
+                sidestep: check.number("sidestep", self.sidestep)?,
+            },
+            walk: SteadyWalk {
+                step_ahead: check.number("step_ahead", self.step_ahead)?,
+                step_aside: check.number("step_aside", self.step_aside)?,
+                velocity: {
+                    let [ahead, left, turn] = check.numbers("velocity", &self.velocity)?;
+                    WalkVelocity { ahead, left, turn }
+                },
             },
             intent: if self.intent == 0 { None } else { Some(check.code("intent", self.intent)?) },
             active_limit: knows(Self::BOUND).then(active_limit).transpose()?,
@@ -147,6 +167,10 @@ impl From<&Reply> for ReplyMessage {
             turn: reply.granted.turn,
             speed: reply.granted.speed,
             extension: reply.granted.extension,
+            sidestep: reply.granted.sidestep,
+            step_ahead: reply.walk.step_ahead,
+            step_aside: reply.walk.step_aside,
+            velocity: [reply.walk.velocity.ahead, reply.walk.velocity.left, reply.walk.velocity.turn],
             intent: reply.intent.map_or(0, Intent::code),
             known: bit(active_limit.is_some(), Self::BOUND)
                 | bit(authority.is_some(), Self::IN_COMMAND)
@@ -175,7 +199,7 @@ mod tests {
 
     use super::*;
 
-    const GRANTED: Command = Command { turn: 0.2, speed: 1.1, extension: 0.0 };
+    const GRANTED: Command = Command { turn: 0.2, speed: 1.1, extension: 0.0, sidestep: -0.1 };
 
     #[test]
     fn a_reply_survives_its_message() {
@@ -229,6 +253,10 @@ mod tests {
             turn: 0.0,
             speed: 0.0,
             extension: 0.0,
+            sidestep: 0.0,
+            step_ahead: 0.0,
+            step_aside: 0.0,
+            velocity: [0.0; 3],
             intent: 0,
             known: 0,
             joint: 0,

@@ -1,7 +1,7 @@
 //! Report, controller → anyone: the state of the controller after a period.
 
 use iceoryx2::prelude::ZeroCopySend;
-use interface::{AddedAngles, Faults, HalfStep, PeriodTiming, Report};
+use interface::{AddedAngles, Faults, HalfStep, Odometry, PeriodTiming, Report, WalkPose, WalkVelocity};
 use model::{ComState, Side};
 
 use super::MessageFault;
@@ -9,7 +9,7 @@ use super::fault::Check;
 
 /// A [`Report`] as it lies in shared memory.
 #[derive(Clone, Copy, Debug, PartialEq, ZeroCopySend)]
-#[type_name("halfstep.Report.v2")]
+#[type_name("halfstep.Report.v3")]
 #[repr(C)]
 pub struct ReportMessage {
     /// Periods since the controller started.
@@ -30,6 +30,8 @@ pub struct ReportMessage {
     pub turn: f64,
     /// `β` in force (rad).
     pub extension: f64,
+    /// `γ` in force (rad).
+    pub sidestep: f64,
     /// Measured ZMP, x and y in the support foot's sole frame (m); NaN when the feet carry too little.
     pub zmp_in_support: [f64; 2],
     /// Planned ZMP, likewise (m); NaN when there is no plan.
@@ -49,6 +51,16 @@ pub struct ReportMessage {
     pub com_planned: [f64; 3],
     /// Its velocity, likewise (m/s).
     pub com_velocity_planned: [f64; 3],
+    /// The middle between both soles in the walk frame, as estimated: x, y (m), heading (rad).
+    pub pose: [f64; 3],
+    /// Mean velocity over the last full step, seen from the robot: ahead, left (m/s), turning to the left (rad/s).
+    pub walk_velocity: [f64; 3],
+    /// The sole of the support foot in the walk frame: x, y (m), heading (rad).
+    pub support_sole: [f64; 3],
+    /// Where the other foot is to land next, likewise.
+    pub landing: [f64; 3],
+    /// Where the support foot is to land after it, likewise.
+    pub landing_after: [f64; 3],
     /// The [`Faults`] present.
     pub faults: u32,
     /// Deadlines missed since the start.
@@ -78,6 +90,7 @@ impl ReportMessage {
             speed: report.speed,
             turn: report.turn,
             extension: report.extension,
+            sidestep: report.sidestep,
             zmp_in_support: report.zmp_in_support.map_or([f64::NAN; 2], Into::into),
             zmp_planned: report.zmp_planned.map_or([f64::NAN; 2], Into::into),
             margin: report.margin.unwrap_or(f64::NAN),
@@ -89,6 +102,15 @@ impl ReportMessage {
             com_velocity_in_support,
             com_planned,
             com_velocity_planned,
+            pose: pose_numbers(&report.odometry.pose),
+            walk_velocity: [
+                report.odometry.velocity.ahead,
+                report.odometry.velocity.left,
+                report.odometry.velocity.turn,
+            ],
+            support_sole: pose_numbers(&report.odometry.support_sole),
+            landing: pose_numbers(&report.odometry.landings[0]),
+            landing_after: pose_numbers(&report.odometry.landings[1]),
             faults: report.faults.0,
             missed: u32::try_from(timing.missed).unwrap_or(u32::MAX),
             compute_ns: timing.compute_ns,
@@ -123,6 +145,7 @@ impl ReportMessage {
             speed: check.number("speed", self.speed)?,
             turn: check.number("turn", self.turn)?,
             extension: check.number("extension", self.extension)?,
+            sidestep: check.number("sidestep", self.sidestep)?,
             zmp_in_support: known(&check, "zmp_in_support", &self.zmp_in_support)?.map(Into::into),
             zmp_planned: known(&check, "zmp_planned", &self.zmp_planned)?.map(Into::into),
             margin: if self.margin.is_nan() { None } else { Some(check.number("margin", self.margin)?) },
@@ -130,7 +153,20 @@ impl ReportMessage {
             added,
             com_planned: com("com_planned", &self.com_planned, &self.com_velocity_planned)?,
             com_measured: com("com_in_support", &self.com_in_support, &self.com_velocity_in_support)?,
+            odometry: self.odometry(&check)?,
             faults: Faults(self.faults),
+        })
+    }
+
+    fn odometry(&self, check: &Check) -> Result<Odometry, MessageFault> {
+        let pose =
+            |field, numbers: &[f64; 3]| check.numbers(field, numbers).map(|[x, y, heading]| WalkPose { x, y, heading });
+        let [ahead, left, turn] = check.numbers("walk_velocity", &self.walk_velocity)?;
+        Ok(Odometry {
+            pose: pose("pose", &self.pose)?,
+            velocity: WalkVelocity { ahead, left, turn },
+            support_sole: pose("support_sole", &self.support_sole)?,
+            landings: [pose("landing", &self.landing)?, pose("landing_after", &self.landing_after)?],
         })
     }
 
@@ -139,6 +175,10 @@ impl ReportMessage {
         let Self { tick, time_ns, missed, compute_ns, .. } = *self;
         PeriodTiming { tick, time_ns, missed: missed.into(), compute_ns }
     }
+}
+
+fn pose_numbers(pose: &WalkPose) -> [f64; 3] {
+    [pose.x, pose.y, pose.heading]
 }
 
 /// Numbers that are all there, or none of them.
@@ -165,6 +205,7 @@ mod tests {
             speed: 1.0,
             turn: 0.1,
             extension: 0.0,
+            sidestep: -0.1,
             zmp_in_support: Some([0.01, -0.02].into()),
             zmp_planned: Some([0.0, 0.0].into()),
             margin: Some(-0.01),
@@ -172,6 +213,12 @@ mod tests {
             added: Some(AddedAngles { ankle: [0.01, -0.02].into(), waist: [0.03, 0.04].into() }),
             com_planned: com(0.09),
             com_measured: com(0.08),
+            odometry: Odometry {
+                pose: WalkPose { x: 1.0, y: 2.0, heading: 3.0 },
+                velocity: WalkVelocity { ahead: 0.4, left: -0.1, turn: 0.2 },
+                support_sole: WalkPose { x: 1.1, y: 2.1, heading: 3.1 },
+                landings: [WalkPose { x: 1.2, y: 2.2, heading: 3.2 }, WalkPose { x: 1.3, y: 2.3, heading: 3.3 }],
+            },
             faults: [Fault::InTheAir, Fault::DeadlineMissed].into_iter().collect(),
         };
         let unknown = Report {
@@ -202,6 +249,7 @@ mod tests {
             speed: 1.0,
             turn: 0.0,
             extension: 0.0,
+            sidestep: 0.0,
             zmp_in_support: [0.0, f64::NAN],
             zmp_planned: [0.0; 2],
             margin: 0.0,
@@ -211,6 +259,11 @@ mod tests {
             com_velocity_in_support: [0.0; 3],
             com_planned: [0.0; 3],
             com_velocity_planned: [0.0; 3],
+            pose: [0.0; 3],
+            walk_velocity: [0.0; 3],
+            support_sole: [0.0; 3],
+            landing: [0.0; 3],
+            landing_after: [0.0; 3],
             faults: 0,
             missed: 0,
             compute_ns: 0,

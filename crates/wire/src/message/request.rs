@@ -1,20 +1,21 @@
 //! Request, operator → controller: a change of the walk.
 
 use iceoryx2::prelude::ZeroCopySend;
-use interface::{GaitChange, Intent, Lifetime, Request};
+use interface::{GaitChange, Intent, Lifetime, Request, WalkVelocity};
 
 use super::MessageFault;
 use super::fault::Check;
 
 /// A [`Request`] as it lies in shared memory.
 #[derive(Clone, Copy, Debug, PartialEq, ZeroCopySend)]
-#[type_name("halfstep.Request.v3")]
+#[type_name("halfstep.Request.v4")]
 #[repr(C)]
 pub struct RequestMessage {
     /// The controller's tick before which it must not take effect; 0 is at once.
     pub not_before: u64,
     /// Which of the following are asked for: [`TURN`](Self::TURN), [`SPEED`](Self::SPEED),
-    /// [`EXTENSION`](Self::EXTENSION), [`INTENT`](Self::INTENT); what is not stays as it is. And [`MORE`](Self::MORE).
+    /// [`EXTENSION`](Self::EXTENSION), [`INTENT`](Self::INTENT), [`SIDESTEP`](Self::SIDESTEP),
+    /// [`VELOCITY`](Self::VELOCITY); what is not stays as it is. And [`MORE`](Self::MORE).
     pub present: u32,
     /// An [`Intent`].
     pub intent: u32,
@@ -28,6 +29,10 @@ pub struct RequestMessage {
     pub speed: f64,
     /// `β`: step extension (rad).
     pub extension: f64,
+    /// `γ`: sidestep per full step (rad), positive to the left.
+    pub sidestep: f64,
+    /// The velocity to walk at: ahead, left (m/s), turning to the left (rad/s).
+    pub velocity: [f64; 3],
     /// Command timeout of a streamed request (s), 0 for the controller's own.
     pub age_limit: f64,
     /// A number of the sender's choice, which the reply repeats.
@@ -48,6 +53,10 @@ impl RequestMessage {
     /// In `present`: another request of the same script follows, which takes effect no earlier. A controller in
     /// lockstep waits for it, so that the walk does not depend on when it is sent.
     pub const MORE: u32 = 16;
+    /// In `present`: `sidestep` is asked for.
+    pub const SIDESTEP: u32 = 32;
+    /// In `present`: `velocity` is asked for, instead of gait parameters.
+    pub const VELOCITY: u32 = 64;
 
     /// The request, if its codes are known, every number that is present is finite, and the age limit is not negative.
     pub fn checked(&self) -> Result<Request, MessageFault> {
@@ -56,9 +65,13 @@ impl RequestMessage {
             | RequestMessage::SPEED
             | RequestMessage::EXTENSION
             | RequestMessage::INTENT
-            | RequestMessage::MORE;
+            | RequestMessage::MORE
+            | RequestMessage::SIDESTEP
+            | RequestMessage::VELOCITY;
         if self.present & !ALL != 0 {
-            let (field, known) = ("present", "sums of 1 (turn), 2 (speed), 4 (extension), 8 (intent) and 16 (more)");
+            let known = "sums of 1 (turn), 2 (speed), 4 (extension), 8 (intent), 16 (more), 32 (sidestep) and 64 \
+                         (velocity)";
+            let field = "present";
             return Err(MessageFault::UnknownCode { message: check.0, field, value: self.present, known });
         }
         let number = |bit, field, value| {
@@ -77,6 +90,13 @@ impl RequestMessage {
                 turn: number(Self::TURN, "turn", self.turn)?,
                 speed: number(Self::SPEED, "speed", self.speed)?,
                 extension: number(Self::EXTENSION, "extension", self.extension)?,
+                sidestep: number(Self::SIDESTEP, "sidestep", self.sidestep)?,
+            },
+            velocity: if self.present & Self::VELOCITY != 0 {
+                let [ahead, left, turn] = check.numbers("velocity", &self.velocity)?;
+                Some(WalkVelocity { ahead, left, turn })
+            } else {
+                None
             },
             lifetime,
             timeout: timeout.filter(|&timeout| timeout > 0.0),
@@ -89,12 +109,14 @@ impl RequestMessage {
 impl From<&Request> for RequestMessage {
     fn from(request: &Request) -> Self {
         let bit = |present: bool, bit: u32| if present { bit } else { 0 };
-        let GaitChange { turn, speed, extension } = request.gait;
+        let GaitChange { turn, speed, extension, sidestep } = request.gait;
         Self {
             not_before: request.not_before,
             present: bit(turn.is_some(), Self::TURN)
                 | bit(speed.is_some(), Self::SPEED)
                 | bit(extension.is_some(), Self::EXTENSION)
+                | bit(sidestep.is_some(), Self::SIDESTEP)
+                | bit(request.velocity.is_some(), Self::VELOCITY)
                 | bit(request.intent.is_some(), Self::INTENT),
             intent: request.intent.map_or(0, Intent::code),
             source: request.source.code(),
@@ -102,6 +124,8 @@ impl From<&Request> for RequestMessage {
             turn: turn.unwrap_or(0.0),
             speed: speed.unwrap_or(0.0),
             extension: extension.unwrap_or(0.0),
+            sidestep: sidestep.unwrap_or(0.0),
+            velocity: request.velocity.map_or([0.0; 3], |velocity| [velocity.ahead, velocity.left, velocity.turn]),
             age_limit: request.timeout.unwrap_or(0.0),
             id: request.id,
             expires_ns: request.expires_ns.unwrap_or(0),
@@ -162,6 +186,6 @@ mod tests {
         let aged = |age_limit| text(RequestMessage { age_limit, ..stream });
         assert_eq!(aged(-1.0), "request: age_limit is -1; it must be at least 0");
         assert_eq!(aged(f64::INFINITY), "request: age_limit is inf; it must be finite");
-        assert!(text(RequestMessage { present: 32, ..good }).starts_with("request: present is 32; known are sums"));
+        assert!(text(RequestMessage { present: 128, ..good }).starts_with("request: present is 128; known are sums"));
     }
 }

@@ -1,0 +1,92 @@
+//! Step lengths: where a leg swung at hip and ankle by an angle puts the foot, in metres, and back.
+//!
+//! The legs of the nominal half-step are taken at its end, as lines from hip to ankle; see `modified_half_step`.
+
+use dynamics::{Kinematics, Tree, sin_cos};
+use gait::NominalTable;
+use model::{LegReach, Mechanism, Side};
+use nalgebra::Vector3;
+
+/// The legs at the end of the nominal half-step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct StepGeometry {
+    /// From hip to ankle of the support leg upward and of the swing leg downward: along x, summed (m).
+    ahead: f64,
+    /// The same across x, each from the ankle to the hip's height (m).
+    height: f64,
+    /// Step length less what the legs contribute (m).
+    rest: f64,
+    /// Distance of the soles, middle to middle, without a sidestep (m).
+    pub width: f64,
+}
+
+/// Rounds of Newton's method: the error of a step of half a leg's length falls below a nanometre.
+const ROUNDS: usize = 5;
+/// Largest angle by which either leg is swung (rad): far more than any leg can.
+const SWING_MAX: f64 = 1.0;
+
+impl StepGeometry {
+    /// The geometry of a robot with its nominal half-step.
+    pub(crate) fn new(mechanism: &Mechanism, table: &NominalTable) -> Self {
+        let tree = Tree::new(mechanism);
+        let kinematics = Kinematics::fixed_base_up_to_left_foot(&tree, &table.angles_at(1.0));
+        let reach = LegReach::of(mechanism);
+        let at = |link, place: &Vector3<f64>| kinematics.origin[link] + kinematics.rotation[link] * place;
+        let [support_hip, swing_hip] = reach.hips_in_pelvis.map(|hip| at(tree.pelvis(), &hip));
+        let support_ankle = reach.ankles_in_foot[0];
+        let swing_ankle = at(tree.foot(Side::Left), &reach.ankles_in_foot[1]);
+        let (up, down) = (support_hip - support_ankle, swing_ankle - swing_hip);
+        let sole = kinematics.sole_to_world(mechanism, Side::Left).translation.vector;
+        let ahead = up.x + down.x;
+        Self {
+            ahead,
+            height: up.yz().norm() + down.yz().norm(),
+            rest: sole.x - ahead,
+            width: mechanism.foot_distance(),
+        }
+    }
+
+    /// How far ahead of the support sole the swing sole lands (m).
+    ///
+    /// * `reach` – by which either leg swings ahead (rad)
+    pub(crate) fn step(&self, reach: f64) -> f64 {
+        let (sine, cosine) = sin_cos(reach);
+        self.rest + self.ahead * cosine + self.height * sine
+    }
+
+    /// The swing ahead of either leg (rad) for a step (m); the largest possible one if the legs are too short.
+    pub(crate) fn reach(&self, step: f64) -> f64 {
+        let mut reach = 0.0;
+        for _ in 0..ROUNDS {
+            let (sine, cosine) = sin_cos(reach);
+            let slope = self.height * cosine - self.ahead * sine;
+            reach = (reach + (step - self.step(reach)) / slope).clamp(-SWING_MAX, SWING_MAX);
+        }
+        reach
+    }
+
+    /// How much further apart than without a sidestep the soles land (m).
+    ///
+    /// * `spread` – by which either leg swings away from the other one (rad)
+    /// * `reach` – by which either leg swings ahead (rad)
+    pub(crate) fn aside(&self, spread: f64, reach: f64) -> f64 {
+        self.height_at(reach) * sin_cos(spread).0
+    }
+
+    /// The swing aside of either leg (rad) for soles that land further apart (m).
+    pub(crate) fn spread(&self, aside: f64, reach: f64) -> f64 {
+        let sine = (aside / self.height_at(reach)).clamp(-0.8, 0.8);
+        let mut spread = sine;
+        for _ in 0..ROUNDS {
+            let (at, slope) = sin_cos(spread);
+            spread += (sine - at) / slope;
+        }
+        spread
+    }
+
+    /// Heights of both hips over their ankles, summed, with the legs swung ahead (m).
+    fn height_at(&self, reach: f64) -> f64 {
+        let (sine, cosine) = sin_cos(reach);
+        self.height * cosine - self.ahead * sine
+    }
+}

@@ -1,0 +1,179 @@
+//! Goal: a velocity is walked, in every direction: without a fall, at what the reply says, from a stand at once in its
+//! direction; and the controller knows where it has come.
+//!
+//! Method: lockstep. What the reply grants against the true path of the middle between the feet. The long version is
+//! `survey velocities`.
+
+use dynamics::pose_seen_from;
+use halfstep_tests::random;
+use halfstep_tests::velocity::{random_velocity, to_half_circle, true_pose};
+use halfstep_tests::walking::Walking;
+use interface::{Mode, Odometry, Reply, Request, Source, Verdict, WalkPose, WalkVelocity};
+use rand::Rng;
+
+fn velocity(ahead: f64, left: f64, turn_deg: f64) -> WalkVelocity {
+    WalkVelocity { ahead, left, turn: turn_deg.to_radians() }
+}
+
+fn ask(walking: &mut Walking, velocity: WalkVelocity) -> Reply {
+    let request = Request { velocity: Some(velocity), ..Request::new(Source::Console) };
+    walking.ask_for(&request).reply.expect("a request is answered")
+}
+
+/// The mean velocity over some seconds, seen from the robot.
+fn walked(walking: &mut Walking, seconds: f64) -> WalkVelocity {
+    let (mut before, mut sum) = (true_pose(walking), WalkPose::default());
+    let end = walking.time() + seconds;
+    while walking.time() < end {
+        walking.walk(0.05);
+        let now = true_pose(walking);
+        let turned = to_half_circle(now.heading - before.heading);
+        let between = WalkPose { heading: before.heading + turned / 2.0, ..before };
+        let seen = pose_seen_from(&between, &now);
+        sum.x += seen.x;
+        sum.y += seen.y;
+        sum.heading += turned;
+        before = now;
+    }
+    WalkVelocity { ahead: sum.x, left: sum.y, turn: sum.heading }.scaled(1.0 / seconds)
+}
+
+fn assert_near(asked: &WalkVelocity, granted: &WalkVelocity, walked: &WalkVelocity) {
+    let lost = (granted.ahead - walked.ahead).hypot(granted.left - walked.left);
+    let size = granted.ahead.hypot(granted.left);
+    assert!(lost < (0.1 * size).max(0.02), "{asked:?}: granted {granted:?}, walked {walked:?}");
+    let turn = (granted.turn - walked.turn).abs();
+    assert!(turn < (0.1 * granted.turn.abs()).max(2_f64.to_radians()), "{asked:?}: {granted:?}, {walked:?}");
+}
+
+#[test]
+fn the_fastest_velocities_of_each_direction_are_walked() {
+    for (asked, least) in [
+        (velocity(1.15, 0.0, 0.0), 0.85),
+        (velocity(-0.45, 0.0, 0.0), 0.97),
+        (velocity(0.0, 0.25, 0.0), 0.97),
+        (velocity(0.0, -0.25, 0.0), 0.97),
+        (velocity(0.0, 0.0, 60.0), 0.97),
+    ] {
+        let mut walking = Walking::begin(3);
+        walking.walk(2.0);
+        let granted = ask(&mut walking, asked).walk.velocity;
+        let sum = |velocity: &WalkVelocity| velocity.ahead.abs() + velocity.left.abs() + velocity.turn.abs();
+        assert!(sum(&granted) > least * sum(&asked), "{asked:?}: {granted:?}");
+        walking.walk(6.0);
+        let walked = walked(&mut walking, 10.0);
+        assert_near(&asked, &granted, &walked);
+        assert_eq!(walking.tick(None).report.mode, Mode::Walking, "{asked:?}");
+    }
+}
+
+#[test]
+fn random_velocities_follow_each_other_without_a_fall() {
+    for seed in 0..3 {
+        let mut walking = Walking::begin(seed);
+        let mut random = random(seed);
+        let mut next = 1.0;
+        while walking.time() < 60.0 {
+            let request = (walking.time() >= next).then(|| {
+                next = walking.time() + random.random_range(0.3..3.0);
+                Request { velocity: Some(random_velocity(&mut random)), ..Request::new(Source::Console) }
+            });
+            let report = walking.tick_with(request.as_ref());
+            assert!(!walking.has_fallen(&report), "seed {seed}: fell at {:.2} s", walking.time());
+        }
+    }
+}
+
+#[test]
+fn a_start_from_a_stand_goes_in_the_direction_of_the_velocity_from_the_first_step() {
+    for (asked, ahead, left) in [
+        (velocity(-0.3, 0.0, 0.0), -1.0, 0.0),
+        (velocity(0.0, 0.15, 0.0), 0.0, 1.0),
+        (velocity(0.3, 0.0, 0.0), 1.0, 0.0),
+    ] {
+        let mut walking = Walking::stand(2);
+        walking.walk(0.5);
+        let start = true_pose(&walking);
+        let reply = ask(&mut walking, asked);
+        assert_eq!(reply.verdict, Verdict::Accepted, "{reply:?}");
+        let mut against: f64 = 0.0;
+        for _ in 0..60 {
+            walking.walk(0.1);
+            let seen = pose_seen_from(&start, &true_pose(&walking));
+            against = against.min(seen.x * ahead + seen.y * left);
+        }
+        assert!(against > -0.02, "{asked:?}: it went {against} m the other way first");
+        let seen = pose_seen_from(&start, &true_pose(&walking));
+        assert!(seen.x * ahead + seen.y * left > 0.4, "{asked:?}: {seen:?}");
+    }
+}
+
+#[test]
+fn no_velocity_is_a_stand() {
+    let mut walking = Walking::begin(4);
+    walking.walk(1.0);
+    ask(&mut walking, velocity(-0.2, 0.1, 10.0));
+    walking.walk(5.0);
+    let reply = ask(&mut walking, WalkVelocity::default());
+    assert_eq!(reply.verdict, Verdict::Accepted);
+    walking.walk(4.0);
+    let report = walking.tick(None).report;
+    assert_eq!(report.mode, Mode::Standing);
+    assert_eq!(report.odometry.velocity, WalkVelocity::default());
+}
+
+#[test]
+fn a_velocity_that_is_no_number_is_refused_and_one_beyond_all_ranges_is_limited_in_its_direction() {
+    let mut walking = Walking::begin(5);
+    walking.walk(1.0);
+    for nonsense in [f64::NAN, f64::INFINITY] {
+        let reply = ask(&mut walking, velocity(0.1, nonsense, 0.0));
+        assert_eq!(reply.verdict, Verdict::Refused, "{reply:?}");
+    }
+    let reply = ask(&mut walking, velocity(20.0, 10.0, 0.0));
+    assert_eq!(reply.verdict, Verdict::Limited);
+    let granted = reply.walk.velocity;
+    assert!(granted.ahead > 0.15 && (granted.left / granted.ahead - 0.5).abs() < 0.03, "{granted:?}");
+}
+
+#[test]
+fn the_odometry_is_where_the_robot_is() {
+    let mut walking = Walking::begin(6);
+    let start = true_pose(&walking);
+    let mut random = random(6);
+    for _ in 0..20 {
+        ask(&mut walking, random_velocity(&mut random));
+        walking.walk(1.5);
+    }
+    ask(&mut walking, WalkVelocity::default());
+    walking.walk(4.0);
+    let (estimated, truth) = (walking.tick(None).report.odometry.pose, pose_seen_from(&start, &true_pose(&walking)));
+    let off = (estimated.x - truth.x).hypot(estimated.y - truth.y);
+    assert!(off < 0.05, "{off} m: {estimated:?}, in truth {truth:?}");
+    let turned = to_half_circle(estimated.heading - truth.heading);
+    assert!(turned.abs() < 0.5_f64.to_radians(), "{estimated:?}, in truth {truth:?}");
+}
+
+/// The reported landings are where the feet land: within slip.
+#[test]
+fn the_next_landings_are_told_before_they_happen() {
+    let mut walking = Walking::begin(7);
+    ask(&mut walking, velocity(0.2, -0.1, 10.0));
+    walking.walk(5.0);
+    // What was told in the middle of each half-step, and the support sole then.
+    let mut middles: Vec<Odometry> = Vec::new();
+    let mut last = u64::MAX;
+    while middles.len() < 12 {
+        let report = walking.tick(None).report;
+        if report.half_step.progress > 0.5 && report.half_step.index != last {
+            last = report.half_step.index;
+            middles.push(report.odometry);
+        }
+    }
+    let next = middles.windows(2).map(|pair| (pair[0].landings[0], pair[1].support_sole));
+    let after = middles.windows(3).map(|three| (three[0].landings[1], three[2].support_sole));
+    for (told, later) in next.chain(after) {
+        let off = (later.x - told.x).hypot(later.y - told.y);
+        assert!(off < 0.01 && (later.heading - told.heading).abs() < 0.02, "{later:?}, told {told:?}");
+    }
+}
