@@ -31,6 +31,8 @@ mod starvation;
 mod streams;
 mod table;
 mod variations;
+#[cfg(feature = "mujoco")]
+mod velocities;
 mod watched;
 
 use std::process::ExitCode;
@@ -77,6 +79,9 @@ enum Survey {
     /// What is granted, walked in MuJoCo
     #[cfg(feature = "mujoco")]
     Mujoco(mujoco::Options),
+    /// Random velocities in every direction: no fall, and what is granted is walked
+    #[cfg(feature = "mujoco")]
+    Velocities(velocities::Options),
     /// Random scenarios, half of them hard, in our plant and in MuJoCo: whether both fall or walk, and how near their
     /// ZMP is
     #[cfg(feature = "mujoco")]
@@ -104,6 +109,8 @@ fn main() -> ExitCode {
         Survey::Robots(options) => robots::survey(options),
         #[cfg(feature = "mujoco")]
         Survey::Mujoco(options) => mujoco::survey(options),
+        #[cfg(feature = "mujoco")]
+        Survey::Velocities(options) => velocities::survey(options),
         #[cfg(feature = "mujoco")]
         Survey::Agreement(options) => agreement::survey(options),
         #[cfg(feature = "mujoco")]

@@ -5,7 +5,7 @@
 //! lockstep, on another thread in real time) and completes it. That takes milliseconds and allocates nothing.
 
 use interface::{ActiveLimit, Command, GaitChange, Intent, Objection, Reason, Request, Verdict, WalkVelocity};
-use pattern::{Feasibility, FeasibilityCheck, Gait, GaitState, Limit, LimitViolation, PatternGenerator};
+use pattern::{Feasibility, FeasibilityCheck, Gait, GaitState, Limit, LimitViolation, Pace, PatternGenerator};
 
 use crate::pattern::goal_of;
 
@@ -26,6 +26,8 @@ const LATE: f64 = 0.2;
 #[derive(Clone, Debug)]
 pub struct AdmissionJob {
     wanted: Wanted,
+    /// The pace at which the walk changes over to it.
+    pace: Pace,
     intent: Option<Intent>,
     check: FeasibilityCheck,
     /// A copy of the controller's generator; once evaluated, how it goes on with what was granted.
@@ -66,6 +68,7 @@ impl AdmissionJob {
     pub(crate) fn new(check: FeasibilityCheck, generator: &PatternGenerator) -> Self {
         Self {
             wanted: Wanted::Parameters(GaitChange::NONE),
+            pace: Pace::AtOnce,
             intent: None,
             check,
             generator: generator.clone(),
@@ -94,7 +97,7 @@ impl AdmissionJob {
     pub fn evaluate(&mut self) {
         let Some(decision) = self.decision.or_else(|| self.decide()) else { return };
         let index = self.generator.half_step().index;
-        let applied = apply(&mut self.generator, &decision.granted.into(), self.intent, self.wanted.is_gradual());
+        let applied = apply(&mut self.generator, &decision.granted.into(), self.intent, self.pace);
         let arrives = index + u64::from(self.generator.gait_state().half_steps_to_goal());
         self.decision = Some(Decision { effect_half_step: applied.effect_half_step.max(arrives), ..decision });
     }
@@ -120,12 +123,18 @@ impl AdmissionJob {
             let unchanged = Decision::unchanged(in_force, self.generator.half_step().index);
             return Some(Decision { verdict: Verdict::Refused, objection, ..unchanged });
         }
+        self.pace = if velocity.is_some() { Pace::Quick } else { Pace::AtOnce };
         let out_of_range = velocity.and_then(|velocity| self.range_objection(&velocity));
         let change = match self.wanted {
             Wanted::Parameters(change) => change,
             Wanted::Velocity(velocity) => self.generator.command_at(&self.within_range(&velocity)).into(),
         };
-        let (requested, feasibility) = self.simulate(&change);
+        let (mut requested, mut feasibility) = self.simulate(&change);
+        if feasibility.violation.is_some() && self.pace == Pace::Quick {
+            // What cannot be reached quickly may be reached gradually.
+            self.pace = Pace::Gradual;
+            (requested, feasibility) = self.simulate(&change);
+        }
         let requested = match out_of_range {
             Some(objection) if requested.verdict == Verdict::Accepted => {
                 Decision { verdict: Verdict::Limited, objection: Some(objection), ..requested }
@@ -220,7 +229,7 @@ impl AdmissionJob {
     /// Simulates the coming knots with a change and an intent, until a full step was made with both.
     fn simulate_with(&mut self, change: &GaitChange, intent: Option<Intent>) -> (Decision, Feasibility) {
         self.trial.clone_from(&self.generator);
-        let decision = apply(&mut self.trial, change, intent, self.wanted.is_gradual());
+        let decision = apply(&mut self.trial, change, intent, self.pace);
         let end = decision.effect_half_step + HALF_STEPS;
         let goes_on = |trial: &PatternGenerator, knots: usize| {
             let is_seen = trial.half_step().index >= end || trial.gait_state().is_standing();
@@ -258,19 +267,11 @@ enum IntendedGait {
     Stand,
 }
 
-impl Wanted {
-    /// Whether the walk changes over by a limited amount in each half-step.
-    fn is_gradual(&self) -> bool {
-        matches!(self, Wanted::Velocity(_))
-    }
-}
-
 /// Applies what the configured range admits of a change, and the intent.
 ///
-/// * `is_gradual` – whether the walk changes over by a limited amount in each half-step
-fn apply(generator: &mut PatternGenerator, change: &GaitChange, intent: Option<Intent>, is_gradual: bool) -> Decision {
-    let admission = if is_gradual { generator.admit_gradually(change) } else { generator.admit(change) };
-    let gait::RangeCheck { verdict, objection, granted, effect_half_step } = admission;
+/// * `pace` – at which the walk changes over
+fn apply(generator: &mut PatternGenerator, change: &GaitChange, intent: Option<Intent>, pace: Pace) -> Decision {
+    let gait::RangeCheck { verdict, objection, granted, effect_half_step } = generator.admit_at(pace, change);
     if verdict != Verdict::Refused
         && let Some(goal) = intent.and_then(goal_of)
     {

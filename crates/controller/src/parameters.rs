@@ -62,7 +62,12 @@ fn gait(gait: &Table, limits: &Table) -> GaitParameters {
             speed_max: limits.number("speed_max").between(1.0, 3.0),
             extension_min: limits.angle("extension_min_deg").between(-80.0, 0.0),
             extension_max: limits.angle("extension_max_deg").between(0.0, 45.0),
-            sidestep_max: limits.angle("sidestep_max_deg").between(0.0, 45.0),
+            // Who wrote the file before there were sidesteps wants none.
+            sidestep_max: if limits.has("sidestep_max_deg") {
+                limits.angle("sidestep_max_deg").between(0.0, 45.0)
+            } else {
+                0.0
+            },
         },
     }
 }

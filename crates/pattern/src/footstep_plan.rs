@@ -8,6 +8,7 @@ use nalgebra::{Vector2, Vector3};
 use crate::footprint::{Footprint, SolePose, rotation_about_z};
 use crate::gait_state::{GaitState, Goal, Stance};
 use crate::modified_half_step::ModifiedHalfStep;
+use crate::pace::Pace;
 use crate::pattern_model::PatternModel;
 
 /// The commanded walk at a knot, with its footsteps. A copy advanced knot by knot gives the footsteps that come.
@@ -21,8 +22,8 @@ pub(crate) struct FootstepPlan {
     pub feet: Feet,
     /// The command in force while the gait state is `Walking`; before a stand the walk is calmer.
     command: Command,
-    /// Whether the walk changes over to that command by a limited amount in each half-step.
-    is_gradual: bool,
+    /// The pace at which the walk changes over to that command.
+    pace: Pace,
     /// The command with which the present half-step began.
     begun_with: Command,
 }
@@ -60,7 +61,7 @@ impl FootstepPlan {
         let command = walk.command();
         let feet = Feet { footprint, lift_off, landing: lift_off };
         let gait_state = GaitState::Walking;
-        let mut plan = Self { walk, gait_state, feet, command, is_gradual: false, begun_with: command };
+        let mut plan = Self { walk, gait_state, feet, command, pace: Pace::AtOnce, begun_with: command };
         plan.feet.landing = plan.landing(model);
         plan
     }
@@ -72,7 +73,7 @@ impl FootstepPlan {
         let feet = Feet { footprint, lift_off: parallel, landing: parallel };
         let gait_state = GaitState::Standing(Stance::Parallel);
         let (command, begun_with) = (walk.command(), Command::NOMINAL);
-        let mut plan = Self { command, walk, gait_state, feet, is_gradual: false, begun_with };
+        let mut plan = Self { command, walk, gait_state, feet, pace: Pace::AtOnce, begun_with };
         plan.walk.force(&Command::NOMINAL);
         plan.feet.landing = plan.landing(model);
         plan
@@ -85,11 +86,11 @@ impl FootstepPlan {
 
     /// Puts in force what the limits of the gait grant of a request. See [`Walk::admit`].
     ///
-    /// * `is_gradual` – whether the walk changes over by a limited amount in each half-step
-    pub(crate) fn admit(&mut self, request: &GaitChange, is_gradual: bool) -> RangeCheck {
+    /// * `pace` – at which the walk changes over to it
+    pub(crate) fn admit(&mut self, request: &GaitChange, pace: Pace) -> RangeCheck {
         let mut admission = self.walk.grant(request, self.command);
         if admission.verdict != Verdict::Refused {
-            (self.command, self.is_gradual) = (admission.granted, is_gradual);
+            (self.command, self.pace) = (admission.granted, pace);
             if let Some(effect_half_step) = self.apply_command() {
                 admission.effect_half_step = effect_half_step;
             }
@@ -113,9 +114,9 @@ impl FootstepPlan {
     /// the nominal, not at all around a stand. Returns the half-step from which on it does, see [`Walk::force`].
     fn apply_command(&mut self) -> Option<u64> {
         match self.gait_state {
-            GaitState::Walking if self.is_gradual => {
-                let half_steps = half_steps_between(&self.begun_with, &self.command);
-                let next = towards(&self.begun_with, &self.command);
+            GaitState::Walking if self.pace != Pace::AtOnce => {
+                let half_steps = self.pace.half_steps(&self.begun_with, &self.command);
+                let next = self.pace.towards(&self.begun_with, &self.command);
                 Some(self.walk.force(&next) + half_steps.saturating_sub(1))
             }
             GaitState::Walking => Some(self.walk.force(&self.command)),
@@ -139,15 +140,15 @@ impl FootstepPlan {
             self.feet.lift_off = self.feet.landing.former_support();
             self.feet.footprint = self.feet.footprint.next(&self.feet.landing);
             self.feet.landing = self.landing(model);
-            if self.is_gradual && self.gait_state == GaitState::Walking {
+            if self.pace != Pace::AtOnce && self.gait_state == GaitState::Walking {
                 self.apply_command();
             }
             FootstepEvent::SupportChange
         } else if was_standing && !self.gait_state.is_standing() {
-            if self.is_gradual && self.gait_state == GaitState::Walking {
+            if self.pace != Pace::AtOnce && self.gait_state == GaitState::Walking {
                 // From feet side by side a step of any direction is a first one.
                 let in_place = Command { extension: 2.0 * model.velocity.no_step(), ..Command::NOMINAL };
-                self.walk.restart(&towards(&in_place, &self.command));
+                self.walk.restart(&self.pace.towards(&in_place, &self.command));
                 self.begun_with = self.walk.command();
             }
             self.apply_command();
@@ -196,29 +197,6 @@ impl FootstepPlan {
     pub(crate) fn swing_sole(&self, model: &PatternModel, progress: f64) -> SolePose {
         ModifiedHalfStep::new(model, &self.walk, progress).swing_sole
     }
-}
-
-/// Largest changes by which a walk changes over to another command in a half-step: turn, extension, sidestep (rad), and
-/// speed (-), which takes a ramp for each.
-const CHANGE_MAX: [f64; 4] = [0.35, 0.12, 0.18, 0.1];
-
-/// The command on the way from one to another that the next half-step makes.
-fn towards(from: &Command, to: &Command) -> Command {
-    let step = |from: f64, to: f64, max: f64| from + (to - from).clamp(-max, max);
-    Command {
-        turn: step(from.turn, to.turn, CHANGE_MAX[0]),
-        speed: step(from.speed, to.speed, CHANGE_MAX[3]),
-        extension: step(from.extension, to.extension, CHANGE_MAX[1]),
-        sidestep: step(from.sidestep, to.sidestep, CHANGE_MAX[2]),
-    }
-}
-
-/// The number of half-steps in which a walk changes over from one command to another.
-fn half_steps_between(from: &Command, to: &Command) -> u64 {
-    let turns = [to.turn - from.turn, to.extension - from.extension, to.sidestep - from.sidestep];
-    let changes = [turns[0], turns[1], turns[2], to.speed - from.speed];
-    let needed = changes.iter().zip(CHANGE_MAX).map(|(change, max)| (change.abs() / max).ceil());
-    needed.fold(0.0, f64::max) as u64
 }
 
 /// The other sole beside the support sole.

@@ -16,6 +16,7 @@ use crate::gait_phase::GaitPhase;
 use crate::gait_state::{GaitState, Goal, Stance};
 use crate::incremental_replan::PlanChange;
 use crate::knot::{KNOT, Knot};
+use crate::pace::Pace;
 use crate::pattern_model::PatternModel;
 use crate::plan::Plan;
 use crate::playback::Playback;
@@ -99,10 +100,10 @@ impl PatternGenerator {
         self.model.velocity.command(velocity, self.walk().limits())
     }
 
-    /// Puts in force what the configured range admits of a change, as [`admit`](Gait::admit), but changes over to it
-    /// by a limited amount in each half-step. A start from a stand makes no nominal step first.
-    pub fn admit_gradually(&mut self, change: &GaitChange) -> RangeCheck {
-        self.plan.admit(&self.model, &self.execution.playback, change, true)
+    /// Puts in force what the configured range admits of a change, as [`admit`](Gait::admit), and changes over to it at
+    /// a pace. Unless that is [`Pace::AtOnce`], a start from a stand makes no nominal step first.
+    pub fn admit_at(&mut self, pace: Pace, change: &GaitChange) -> RangeCheck {
+        self.plan.admit(&self.model, &self.execution.playback, change, pace)
     }
 
     /// Plays the speed of a request from now on, if the robot walks. A plan for it must [follow](Self::adopt), or
@@ -205,7 +206,7 @@ impl PatternGenerator {
 
 impl Gait for PatternGenerator {
     fn admit(&mut self, request: &GaitChange) -> RangeCheck {
-        self.plan.admit(&self.model, &self.execution.playback, request, false)
+        self.plan.admit(&self.model, &self.execution.playback, request, Pace::AtOnce)
     }
 
     fn advance(&mut self, dt: f64) -> bool {

@@ -13,6 +13,7 @@ use crate::footstep_plan::FootstepPlan;
 use crate::gait_state::{GaitState, Goal};
 use crate::incremental_replan::{IncrementalReplan, PlanChange};
 use crate::knot::Knot;
+use crate::pace::Pace;
 use crate::pattern_model::PatternModel;
 use crate::playback::Playback;
 use crate::preview_controller::CartState;
@@ -99,17 +100,17 @@ impl Plan {
     /// Puts in force what the limits of the gait grant of a request, and plans it; see [`Walk::admit`].
     ///
     /// * `playback` – whose speed override, if there is one, the plan takes over
-    /// * `is_gradual` – whether the walk changes over by a limited amount in each half-step
+    /// * `pace` – at which the walk changes over to it
     pub(crate) fn admit(
         &mut self,
         model: &PatternModel,
         playback: &Playback,
         request: &GaitChange,
-        is_gradual: bool,
+        pace: Pace,
     ) -> RangeCheck {
         let before = self.command();
         let footsteps = &mut self.foot_trajectory.footsteps;
-        let admission = footsteps.admit(request, is_gradual);
+        let admission = footsteps.admit(request, pace);
         let speed = footsteps.walk.speed().target();
         if speed != before.speed
             && let Some(overriding) = playback.overriding_speed_at_newest(speed)
