@@ -302,7 +302,7 @@ fn read(robot: &TestElement, map: &str) -> Result<Imported, String> {
 fn map() -> String {
     let config = config_text();
     // name, sole and motors as in our own file
-    let mut text = config[..config.find("[joint.").unwrap()].to_string();
+    let mut text = config[..config.find("[servo.").unwrap()].to_string();
     for joint in Joint::ALL.into_iter().filter(|joint| joint.is_powered() && !joint.is_in_arm()) {
         text += &format!(
             "[joint.{}]\nurdf = \"{}\"\nmotor = \"leg\"\nrate_max_deg_per_s = 500\n",

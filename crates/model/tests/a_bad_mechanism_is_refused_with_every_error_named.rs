@@ -278,7 +278,32 @@ fn the_fingerprint_depends_on_numbers_only() {
     assert_eq!(fingerprint(&reordered), original, "the order of keys does not count");
     let heavier = text.replace("mass_kg = 28.625", "mass_kg = 28.626");
     assert_ne!(fingerprint(&heavier), original, "a gram counts");
+    let stiffer = text.replace("stiffness_n_m_per_rad = 5000", "stiffness_n_m_per_rad = 5001");
+    assert_ne!(fingerprint(&stiffer), original, "the servos count");
     let renamed = text.replace("name = \"human-size biped\"", "name = \"another\"");
     assert_ne!(renamed, text);
     assert_eq!(fingerprint(&renamed), original, "the name does not count");
+}
+
+/// The nominal half-step stays valid: it is planned without drives.
+#[test]
+fn the_fingerprint_of_the_body_does_not_depend_on_the_servos() {
+    let text = committed();
+    let body =
+        |text: &str| Mechanism::from_toml(text, "x").unwrap_or_else(|errors| panic!("{errors}")).body_fingerprint;
+    let stiffer = text.replace("stiffness_n_m_per_rad = 5000", "stiffness_n_m_per_rad = 4000");
+    let heavier = text.replace("mass_kg = 28.625", "mass_kg = 28.626");
+    assert!(stiffer != text && body(&stiffer) == body(&text));
+    assert_ne!(body(&heavier), body(&text));
+}
+
+#[test]
+fn a_mechanism_without_servos_is_told_where_they_were() {
+    let text = committed();
+    let begin = text.find("[servo.legs_and_waist]").expect("a table");
+    let end = begin + text[begin..].find("[joint.foot_roll]").expect("the next one");
+    let errors = Mechanism::from_toml(&(text[..begin].to_owned() + &text[end..]), "m.toml").expect_err("none");
+    let must =
+        "servo: must have the tables [servo.legs_and_waist] and [servo.arms]: until 0.1.0 they were in plant.toml";
+    assert_eq!(errors.to_string(), format!("m.toml:1:1: {must}"));
 }

@@ -26,8 +26,6 @@ pub struct FeedbackParameters {
     /// ZMP shift per error of the divergent component of motion (m/m); above 1 the error shrinks. 0 switches feedback
     /// off.
     pub gain: f64,
-    /// Stiffness of an ankle's drive (N·m/rad): the moment on the ground per angle.
-    pub ankle_stiffness: f64,
     /// Least distance of the desired ZMP to the edge of the sole (m).
     pub edge: f64,
     /// Time constant of foot damping control, which corrects the error of the measured ZMP (s).
@@ -66,8 +64,10 @@ impl DcmFeedback {
     pub fn new(mechanism: &Mechanism, parameters: FeedbackParameters) -> Self {
         let proportions = StabilizerProportions::of(mechanism);
         let axis = |joint| mechanism.links[joint].axis.into_inner();
+        // The moment on the ground per angle of the ankle.
+        let ankle_stiffness = mechanism.servos.of(SUPPORT_ANKLE[0]).stiffness;
         Self {
-            lean_per_shift: proportions.weight / parameters.ankle_stiffness,
+            lean_per_shift: proportions.weight / ankle_stiffness,
             support_axes: SUPPORT_ANKLE.map(axis),
             swing_axes: SWING_ANKLE.map(axis),
             step_error: LowPass::new(ERROR_TIME_CONSTANT, Vector2::zeros()),
@@ -229,7 +229,6 @@ mod tests {
     fn feedback() -> DcmFeedback {
         let parameters = FeedbackParameters {
             gain: 3.0,
-            ankle_stiffness: 5000.0,
             edge: 0.005,
             foot_damping_time_constant: 0.03,
             support_ankle_time_constant: 0.01,

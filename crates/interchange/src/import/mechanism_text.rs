@@ -1,6 +1,6 @@
 //! Writes an imported biped as the text of a mechanism file.
 
-use model::Side;
+use model::{Servos, Side};
 use nalgebra::{Isometry3, Unit, Vector3};
 
 use crate::import::biped::{Biped, Hinge};
@@ -24,6 +24,8 @@ pub(super) struct Header<'h> {
     /// Maps coordinates of the URDF's root link to those of the standing robot.
     pub root_to_stand: &'h Isometry3<f64>,
     pub sole: SoleSize,
+    /// Servos of the drives: a URDF tells none.
+    pub servos: Servos,
     /// Inertia of a rotor at its joint (kg·m²), for joints without a motor.
     pub armature: f64,
     /// Joints that are held, by index, with their angles (rad).
@@ -40,6 +42,10 @@ pub(super) fn write(biped: &Biped, robot: &UrdfRobot, map: &ImportMap, header: &
     table(&mut text, "[source]", &source(biped, header));
     table(&mut text, "[sole]", &header.sole.keys().map(|(key, value)| (key, number(value, COARSE))));
     write_motors(&mut text, map);
+    for (joints, servo) in [("legs_and_waist", header.servos.legs_and_waist), ("arms", header.servos.arms)] {
+        let gains = [("stiffness_n_m_per_rad", servo.stiffness), ("damping_n_m_s_per_rad", servo.damping)];
+        table(&mut text, &format!("[servo.{joints}]"), &gains.map(|(key, gain)| (key, gain.to_string())));
+    }
 
     let ankle = biped.ankle(0);
     let floor = Vector3::new(ankle.x, ankle.y, ankle.z - header.sole.ankle_height);

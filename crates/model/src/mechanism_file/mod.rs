@@ -5,6 +5,7 @@
 mod body;
 mod drive;
 mod fingerprint;
+mod servo;
 mod source;
 mod symmetry;
 
@@ -26,13 +27,14 @@ impl Config for Mechanism {
         let tables = PerJoint::from_fn(|joint| joint_table.table(joint.name()));
         let links = PerJoint::from_fn(|joint| link(joint, &tables[joint], &motors));
         let order = order(&tables, &links);
+        let servos = servo::read(root);
         let source = source::read(root, &tables);
 
-        let mut mechanism = Mechanism { name, links, order, sole, source, fingerprint: 0 };
+        let mut mechanism = Mechanism { name, links, order, sole, servos, source, fingerprint: 0, body_fingerprint: 0 };
         if stands_on_its_sole(&tables, &mechanism) {
             symmetry::check(&tables, &mechanism);
         }
-        mechanism.fingerprint = fingerprint::of(&mechanism);
+        (mechanism.fingerprint, mechanism.body_fingerprint) = fingerprint::of(&mechanism);
         mechanism
     }
 }
