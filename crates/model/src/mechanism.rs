@@ -163,6 +163,11 @@ impl Motor {
 }
 
 impl DcMotor {
+    /// Speed of the joint without load, at which the back-EMF takes all of the voltage (rad/s).
+    pub fn no_load_speed(&self) -> f64 {
+        self.voltage_max / (self.torque_constant * self.gear_ratio)
+    }
+
     /// Torque at the joint for a voltage at standstill (N·m/V).
     pub fn torque_per_volt(&self) -> f64 {
         self.gear_ratio * self.torque_constant / self.resistance

@@ -5,7 +5,7 @@ use nalgebra::{Isometry3, Unit, Vector3};
 
 use crate::import::biped::{Biped, Hinge};
 use crate::import::body::LumpedBody;
-use crate::import::import_map::{ImportMap, MOTOR_KEYS};
+use crate::import::import_map::ImportMap;
 use crate::import::role::JointRole;
 use crate::import::sole::SoleSize;
 use crate::import::toml_text::{COARSE, FINE, array, digits, number, quoted, table, vector};
@@ -120,8 +120,7 @@ fn source(biped: &Biped, header: &Header) -> Keys {
 /// Writes the tables of the map's motors.
 pub(super) fn write_motors(text: &mut String, map: &ImportMap) {
     for (name, motor) in &map.motors {
-        let keys: Vec<(&str, String)> =
-            MOTOR_KEYS.iter().zip(motor.0).map(|((key, ..), value)| (*key, value.to_string())).collect();
+        let keys = motor.keys().map(|(key, value)| (key, value.to_string()));
         table(text, &format!("[motor.{}]", quoted(name)), &keys);
     }
 }

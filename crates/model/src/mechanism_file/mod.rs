@@ -12,7 +12,7 @@ mod symmetry;
 use config::{Config, Table};
 use nalgebra::{Unit, Vector3};
 
-use crate::{Body, Joint, JointOrder, Link, Mechanism, Motor, PerJoint, Side, Sole};
+use crate::{Body, DcMotor, Joint, JointOrder, Link, Mechanism, PerJoint, Side, Sole};
 
 /// Largest distance between two joints (m).
 const LENGTH_MAX: f64 = 3.0;
@@ -22,7 +22,7 @@ impl Config for Mechanism {
     fn read(root: &Table) -> Self {
         let name = root.text("name").to_string();
         let sole = Sole::read(&root.table("sole"));
-        let motors = Motor::read_all(root);
+        let motors = DcMotor::read_all(root);
         let joint_table = root.table("joint");
         let tables = PerJoint::from_fn(|joint| joint_table.table(joint.name()));
         let links = PerJoint::from_fn(|joint| link(joint, &tables[joint], &motors));
@@ -51,7 +51,7 @@ impl Sole {
     }
 }
 
-fn link(joint: Joint, table: &Table, motors: &[(&str, Motor)]) -> Link {
+fn link(joint: Joint, table: &Table, motors: &[(&str, DcMotor)]) -> Link {
     let number = f64::from(joint.number());
     table.number("number").that(|value| value == number, &format!("must be {number}, the number of {}", joint.name()));
     let parent = parent(joint, table);
