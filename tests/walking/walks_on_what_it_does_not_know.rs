@@ -1,4 +1,5 @@
-//! The floor's friction, the masses, the load, the servos and the sensors' delay may be other than the controller believes.
+//! The floor's friction, the masses, the load, the servos and the sensors' delay may be other than the controller
+//! believes.
 //! `cargo run --release -p halfstep-survey -- variations` walks longer and by more commands.
 
 use halfstep_tests::mechanism;

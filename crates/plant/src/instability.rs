@@ -42,8 +42,8 @@ impl Plant {
         (!moves || !self.robot.is_finite()).then_some(Instability { time, joint: None, speed })
     }
 
-    /// The settings of `plant.toml` and the servos of `mechanism.toml` that are likely to have made the simulation unstable, with their values:
-    /// those far from the usual ones, else those on which its stability depends.
+    /// The settings of `plant.toml`, and the servos of `mechanism.toml`, that are likely to have made the simulation
+    /// unstable, with their values: those far from the usual ones, else those on which its stability depends.
     pub fn unstable_settings(&self) -> Vec<String> {
         let parameters = &self.parameters;
         let (contact, shares, servos) = (&parameters.contact, &parameters.servo, &self.mechanism.servos);

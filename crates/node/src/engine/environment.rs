@@ -11,6 +11,7 @@ use std::time::Duration;
 use indicatif::ProgressBar;
 
 use super::mujoco_program;
+use super::text_hash::text_hash;
 use crate::tell::tell;
 
 const REQUIREMENTS: &str = include_str!("../../../../tools/mujoco_plant/requirements.txt");
@@ -82,7 +83,7 @@ pub fn is_installed() -> bool {
 
 /// Folder of the environment: one for each list of packages.
 fn folder() -> Result<PathBuf, EnvironmentError> {
-    Ok(cache()?.join(format!("mujoco-{:016x}", fingerprint(LOCK))))
+    Ok(cache()?.join(format!("mujoco-{:016x}", text_hash(LOCK))))
 }
 
 /// Creates the environment.
@@ -169,11 +170,6 @@ pub fn cache() -> Result<PathBuf, EnvironmentError> {
     Ok(cache.ok_or_else(|| EnvironmentError(no_home.to_owned()))?.join("halfstep"))
 }
 
-/// A number that distinguishes texts, the same everywhere: their FNV-1a hash.
-pub(super) fn fingerprint(text: &str) -> u64 {
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -183,10 +179,5 @@ mod tests {
         for package in REQUIREMENTS.split_whitespace() {
             assert!(LOCK.contains(&format!("{package} \\\n    --hash=sha256:")), "{package} is not in the lock file");
         }
-    }
-
-    #[test]
-    fn folder_names_do_not_depend_on_the_compiler() {
-        assert_eq!(fingerprint("foobar"), 0x8594_4171_f739_67e8);
     }
 }

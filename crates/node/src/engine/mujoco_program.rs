@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::environment::fingerprint;
+use super::text_hash::text_hash;
 
 macro_rules! files {
     ($($name:literal),* $(,)?) => {
@@ -32,7 +32,7 @@ const FILES: [(&str, &str); 8] = files![
 /// What could not be written, and why.
 pub(super) fn write(parent: &Path) -> Result<PathBuf, (PathBuf, io::Error)> {
     let content: Vec<&str> = FILES.iter().flat_map(|(name, text)| [*name, *text]).collect();
-    let folder = parent.join(format!("plant-{:016x}", fingerprint(&content.concat())));
+    let folder = parent.join(format!("plant-{:016x}", text_hash(&content.concat())));
     for (name, text) in FILES {
         let file = folder.join(name);
         if fs::read_to_string(&file).ok().as_deref() != Some(text) {
