@@ -5,7 +5,7 @@ use dynamics::{Tree, kinetic_energy, potential_energy};
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::plant_parameters;
 use interface::Setpoint;
-use model::{GRAVITY, JointVector, Motion};
+use model::{GRAVITY, JointVector, Motion, Side};
 use plant::Plant;
 
 #[test]
@@ -30,7 +30,8 @@ fn energy_of_a_dropped_robot_never_grows_until_it_settles_at_its_weight() {
             .truth()
             .soles
             .iter()
-            .flat_map(|sole| mechanism.sole.corners().map(|corner| sole * nalgebra::Point3::from(corner)))
+            .zip(Side::BOTH)
+            .flat_map(|(sole, side)| mechanism.sole.corners(side).map(|corner| sole * nalgebra::Point3::from(corner)))
             .map(|corner| 0.5 * parameters.contact.stiffness * corner.z.min(0.0).powi(2))
             .sum();
         moving + potential_energy(&tree, &kinematics) + servos + ground

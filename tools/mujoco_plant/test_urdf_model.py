@@ -35,6 +35,8 @@ def check_robot(folder, name):
     load = time.perf_counter() - began
     check_mass(name, robot, reader)
     check_soles(name, robot, told)
+    shifted = told["urdf_setup"] | {"sole": told["urdf_setup"]["sole"] | {"inside": 0.02, "outside": 0.05}}
+    check_soles(name, plant.UrdfRobot(told | {"urdf_setup": shifted}), told | {"urdf_setup": shifted})
     check_kinematics(name, told, reader)
     check_round_trip(name, told)
     check_payload(name, told, reader)

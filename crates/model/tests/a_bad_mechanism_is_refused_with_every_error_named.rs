@@ -307,3 +307,27 @@ fn a_mechanism_without_servos_is_told_where_they_were() {
         "servo: must have the tables [servo.legs_and_waist] and [servo.arms]: until 0.1.0 they were in plant.toml";
     assert_eq!(errors.to_string(), format!("m.toml:1:1: {must}"));
 }
+
+#[test]
+fn a_sole_has_a_width_or_two_edges() {
+    let text = committed();
+    let with = |aside: &str| Mechanism::from_toml(&text.replace("width_m = 0.08", aside), "m.toml");
+    let loaded = |aside: &str| with(aside).unwrap_or_else(|errors| panic!("{errors}"));
+    let [committed, same, shifted, other] =
+        ["width_m = 0.08", "inside_m = 0.04\noutside_m = 0.04", "inside_m = 0.02\noutside_m = 0.05", "width_m = 0.07"]
+            .map(loaded);
+    assert_eq!(same, committed);
+    assert_eq!((shifted.sole.inside, shifted.sole.outside), (0.02, 0.05));
+    assert_ne!(shifted.body_fingerprint, other.body_fingerprint);
+    for (aside, refusal) in [
+        (
+            "width_m = 0.08\ninside_m = 0.04",
+            "sole.width_m = 0.08: must be left out: inside_m and outside_m tell both edges",
+        ),
+        ("inside_m = 0.04", "sole.outside_m: is missing: it must be a finite number"),
+        ("inside_m = -0.04\noutside_m = 0.1", "sole.inside_m = -0.04: must lie between 0.001 and 2"),
+    ] {
+        let errors = with(aside).expect_err("a wrong sole").to_string();
+        assert!(errors.contains(refusal), "{errors}");
+    }
+}

@@ -1,7 +1,7 @@
 //! Configuration files of earlier versions, read as those of this one.
 //!
-//! Until 0.1.0 the servos of the drives were tables of `plant.toml`, and their stiffness was a key of `controller.toml`,
-//! too. Now they are the mechanism's.
+//! Until 0.1.0 the servos of the drives were tables of `plant.toml`, and their stiffness was a key of
+//! `controller.toml`, too. Now they are the mechanism's.
 
 use crate::Provenance;
 

@@ -167,12 +167,14 @@ impl DcmFeedback {
         (zmp - sole_centre).zip_map(&room, |zmp, room| zmp.min(room).max(-room)) + sole_centre
     }
 
-    /// How far the ZMP can move from under the ankle in the direction of an error (m). A walk has it there; its present
-    /// place must not count, since a step that is planned anew moves that, and would take back itself.
+    /// How far the ZMP can move in the direction of an error (m) from where a walk has it: beside the ankle, in the
+    /// middle between the sole's sides. Its present place must not count, since a step that is planned anew moves that,
+    /// and would take back itself.
     fn room_towards(&self, error: Vector2<f64>) -> Vector2<f64> {
         let StabilizerProportions { sole_half_size, sole_centre, .. } = self.proportions;
         let edge = sole_half_size - Vector2::repeat(self.parameters.edge);
-        (edge + sole_centre.component_mul(&error.map(f64::signum))).map(|room| room.max(0.0))
+        let from_walk = Vector2::new(sole_centre.x, 0.0);
+        (edge + from_walk.component_mul(&error.map(f64::signum))).map(|room| room.max(0.0))
     }
 
     /// The error of the divergent component at touchdown that neither this ankle nor the next one can correct, in

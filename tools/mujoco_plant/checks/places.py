@@ -30,7 +30,9 @@ def check_soles(name, robot, told):
         geom = robot.model.geom(f"{side}_foot_on_floor").id
         bottom = robot.data.geom_xpos[geom] - [0, 0, robot.model.geom_size[geom, 2]]
         sole = told["urdf_setup"]["sole"]
-        expected = soles[side].xpos + [(sole["ahead"] - sole["behind"]) / 2, 0, 0]
+        outward = (sole["outside"] - sole["inside"]) / 2
+        aside = outward if side == "left" else -outward
+        expected = soles[side].xpos + [(sole["ahead"] - sole["behind"]) / 2, aside, 0]
         assert np.abs(bottom - expected).max() < 1e-12, f"{name}: the {side} box is at {bottom}"
 
 

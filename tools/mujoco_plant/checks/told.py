@@ -13,6 +13,7 @@ from .robots import LEG, RANGES, ROBOTS
 
 GRAVITY = 9.80665
 PERIOD_S, STEPS = 1e-3, 2
+EDGES = ("behind", "ahead", "inside", "outside")
 # The mechanism's axes. Its tree goes up the right leg, so that its joints there turn the other way than a URDF's.
 AXES = {
     **{"ankle_roll": ROLL, "ankle_pitch": PITCH, "knee": PITCH, "hip_pitch": PITCH, "hip_yaw": YAW, "hip_roll": ROLL},
@@ -56,7 +57,7 @@ def first_message(folder, name):
         },
         "feet": {side: {"joint": table[f"{side}_{last[side]}"]} for side in SIDES},
         "soles": soles,
-        "sole": {"behind": sole["behind_m"], "ahead": sole["ahead_m"], "half_width": sole["width_m"] / 2},
+        "sole": {edge: sole.get(f"{edge}_m", sole.get("width_m", 0) / 2) for edge in EDGES},
         "trunk_link": trunk,
         "to_ahead": [1, 0, 0, 0],
         "friction": 0.8,

@@ -8,7 +8,7 @@ The robot comes in one of two forms. `"mjcf"` is a complete model of the twenty-
 `"urdf_setup"`, is a vendor's URDF. README.md lists what `"urdf_setup"` contains.
 """
 
-PROTOCOL = 1
+PROTOCOL = 2
 JOINTS = 20
 # angles, rates, feed-forward torques
 SETPOINT = 3 * JOINTS

@@ -189,10 +189,13 @@ class UrdfModel:
             mujoco.mju_mulQuat(turn, back, self.from_ahead)
             # Half as high as the ankle. Only the lower face matters.
             ankle = self._height(self.data.xanchor[self.model.joint(self.setup["feet"][side]["joint"]).id])
-            height = max(ankle, 0.1 * sole["half_width"]) / 2
+            # The right foot's inner edge is its left one.
+            left, right = (sole[edge] for edge in (("inside", "outside") if side == "right" else ("outside", "inside")))
+            height = max(ankle, 0.05 * (left + right)) / 2
             centre = np.zeros(3)
-            mujoco.mju_rotVecQuat(centre, np.array([(sole["ahead"] - sole["behind"]) / 2, 0, height / 2]), turn)
-            half = ((sole["ahead"] + sole["behind"]) / 2, sole["half_width"], height / 2)
+            middle = ((sole["ahead"] - sole["behind"]) / 2, (left - right) / 2, height / 2)
+            mujoco.mju_rotVecQuat(centre, np.array(middle), turn)
+            half = ((sole["ahead"] + sole["behind"]) / 2, (left + right) / 2, height / 2)
             name, place = f"{side}_foot_on_floor", at + centre
             body.add_geom(name=name, type=box, pos=place, quat=turn, size=half, contype=0, conaffinity=1, **contact)
             body.add_site(name=f"{side}_sole", pos=at, quat=turn)

@@ -1,11 +1,10 @@
 //! The map: what a URDF lacks (name, soles, motors), and what of the import shall be otherwise than found.
 
 use config::{ConfigErrors, Document, Table};
-use model::DcMotor;
+use model::{DcMotor, Sole};
 
 use crate::import::NamedText;
 use crate::import::role::JointRole;
-use crate::import::sole::SoleSize;
 use crate::import::urdf_robot::{JointKind, UrdfRobot};
 use crate::import::urdf_tree::listed;
 
@@ -15,7 +14,7 @@ pub(super) struct ImportMap {
     /// Name of the robot, for users.
     pub name: Option<String>,
     /// The sole of each foot; `None` where it must be taken from the URDF.
-    pub sole: Option<SoleSize>,
+    pub sole: Option<Sole>,
     /// The motors with their names.
     pub motors: Vec<(String, DcMotor)>,
     /// What is told of joints by their role.
@@ -55,7 +54,7 @@ impl ImportMap {
         let root = document.root();
         refuse_old_keys(&root);
         let name = root.has("name").then(|| root.text("name").to_string());
-        let sole = root.has("sole").then(|| SoleSize::read(&root.table("sole")));
+        let sole = root.has("sole").then(|| Sole::read(&root.table("sole")));
         let motors: Vec<(String, DcMotor)> =
             DcMotor::read_all(&root).into_iter().map(|(name, motor)| (name.to_string(), motor)).collect();
         let mut taken = Taken { robot, by: vec![None; robot.joints.len()] };

@@ -40,7 +40,9 @@ impl Hash {
 fn add_body(hash: &mut Hash, mechanism: &Mechanism) {
     let mut add = |value: f64| hash.add(value);
     let sole = mechanism.sole;
-    [sole.behind, sole.ahead, sole.half_width, sole.ankle_height].into_iter().for_each(&mut add);
+    // A sole that is as wide on both sides has one number, as it has one key.
+    let aside = if sole.inside == sole.outside { &[sole.inside][..] } else { &[sole.inside, sole.outside] };
+    [sole.behind, sole.ahead].iter().chain(aside).chain(&[sole.ankle_height]).copied().for_each(&mut add);
     for (_, link) in mechanism.links.iter() {
         add(f64::from(link.parent.map_or(0, Joint::number)));
         link.axis.iter().chain(link.origin.iter()).copied().for_each(&mut add);

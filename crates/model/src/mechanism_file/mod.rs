@@ -6,6 +6,7 @@ mod body;
 mod drive;
 mod fingerprint;
 mod servo;
+mod sole;
 mod source;
 mod symmetry;
 
@@ -36,18 +37,6 @@ impl Config for Mechanism {
         }
         (mechanism.fingerprint, mechanism.body_fingerprint) = fingerprint::of(&mechanism);
         mechanism
-    }
-}
-
-impl Sole {
-    /// Reads a table `[sole]`, noting what is wrong.
-    pub fn read(table: &Table) -> Self {
-        Self {
-            behind: table.number("behind_m").between(1e-3, 2.0),
-            ahead: table.number("ahead_m").between(1e-3, 2.0),
-            half_width: table.number("width_m").between(1e-3, 2.0) / 2.0,
-            ankle_height: table.number("ankle_height_m").between(0.0, 1.0),
-        }
     }
 }
 

@@ -71,7 +71,8 @@ struct Foot {
 struct SoleRectangle {
     behind: f64,
     ahead: f64,
-    half_width: f64,
+    inside: f64,
+    outside: f64,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -105,7 +106,7 @@ impl UrdfSetup {
                 left: Foot { joint: name_of(source, mechanism.foot(Side::Left)) },
             },
             soles: BySide { right: right.into(), left: left.into() },
-            sole: SoleRectangle { behind: sole.behind, ahead: sole.ahead, half_width: sole.half_width },
+            sole: SoleRectangle { behind: sole.behind, ahead: sole.ahead, inside: sole.inside, outside: sole.outside },
             trunk_link: source.trunk_link.clone(),
             to_ahead: [turn.w, turn.i, turn.j, turn.k],
             friction: parameters.contact.friction,
