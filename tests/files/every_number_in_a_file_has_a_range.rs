@@ -72,7 +72,7 @@ fn walk(loaded: &Loaded) -> Result<(), String> {
         Loaded::Other => return Ok(()),
     }
     // As if the half-step had been made for the mechanism.
-    table.mechanism = mechanism.fingerprint;
+    table.mechanism = mechanism.body_fingerprint;
     let table = Arc::new(table);
     Walk::new(table.clone(), &mechanism, &controller.gait, Start::default()).map_err(|error| error.to_string())?;
     Controller::new(&mechanism, table.clone(), &controller, Start::default()).map_err(|error| error.to_string())?;

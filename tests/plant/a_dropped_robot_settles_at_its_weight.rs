@@ -5,7 +5,7 @@ use dynamics::{Tree, kinetic_energy, potential_energy};
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::plant_parameters;
 use interface::Setpoint;
-use model::{GRAVITY, JointVector, Motion};
+use model::{GRAVITY, JointVector, Motion, Side};
 use plant::Plant;
 
 #[test]
@@ -24,16 +24,14 @@ fn energy_of_a_dropped_robot_never_grows_until_it_settles_at_its_weight() {
         let kinematics = robot.kinematics(&tree);
         let moving = kinetic_energy(&tree, &kinematics, robot.angular_rate, robot.velocity, &robot.rates)
             + 0.5 * rotors.0.iter().zip(&robot.rates.0).map(|(inertia, rate)| inertia * rate * rate).sum::<f64>();
-        let servos: f64 = parameters
-            .servo
-            .iter()
-            .map(|(joint, servo)| 0.5 * servo.stiffness * robot.angles[joint] * robot.angles[joint])
-            .sum();
+        let stiffness = |joint| mechanism.servos.of(joint).stiffness;
+        let servos: f64 = robot.angles.iter().map(|(joint, angle)| 0.5 * stiffness(joint) * angle * angle).sum();
         let ground: f64 = plant
             .truth()
             .soles
             .iter()
-            .flat_map(|sole| mechanism.sole.corners().map(|corner| sole * nalgebra::Point3::from(corner)))
+            .zip(Side::BOTH)
+            .flat_map(|(sole, side)| mechanism.sole.corners(side).map(|corner| sole * nalgebra::Point3::from(corner)))
             .map(|corner| 0.5 * parameters.contact.stiffness * corner.z.min(0.0).powi(2))
             .sum();
         moving + potential_energy(&tree, &kinematics) + servos + ground

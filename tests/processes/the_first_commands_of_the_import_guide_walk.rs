@@ -16,7 +16,7 @@ fn our_own_robot_walks_by_the_guides_first_commands() {
         "name = \"Our own\"\n\n[sole]\nbehind_m = {}\nahead_m = {}\nwidth_m = {}\nankle_height_m = {}\n",
         sole.behind,
         sole.ahead,
-        2.0 * sole.half_width,
+        sole.inside + sole.outside,
         sole.ankle_height
     );
     follow_the_guide(&urdf_text(&robot).expect("our robot can be written"), &map, "Our own");

@@ -46,6 +46,7 @@ pub const FILES: Restriction<'_> = Restriction {
         ("crates/config/src/text.rs", "configuration files"),
         ("crates/gait/src/table_csv.rs", "the file of the nominal half-step"),
         ("crates/node/src/engine/environment.rs", "the Python environment of MuJoCo"),
+        ("crates/node/src/engine/mujoco_program.rs", "the program of the MuJoCo plant"),
         ("crates/node/src/recorder.rs", "recordings"),
         ("crates/paper/src/scenario.rs", "scenarios"),
         ("crates/plots/src/run_log/csv_file.rs", "the tables of a run"),

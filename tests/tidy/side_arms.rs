@@ -15,6 +15,7 @@ pub const ALLOWED: &[(&str, &str)] = &[
     ("crates/model/src/mechanism.rs", "the link of a foot"),
     ("crates/model/src/mirror.rs", "mirrors everything"),
     ("crates/model/src/side.rs", "the other side"),
+    ("crates/model/src/sole.rs", "the inner edge of a sole"),
     ("crates/paper/src/picture.rs", "mirrors a footprint"),
     ("crates/plots/src/picture/balance_over_time.rs", "the name of a side"),
     ("crates/plots/src/picture/colours.rs", "the colour of a side"),

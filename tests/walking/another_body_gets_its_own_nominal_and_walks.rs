@@ -121,7 +121,7 @@ fn grown(mut robot: Mechanism, scale: f64) -> Mechanism {
         link.body.inertia *= scale.powi(5);
     }
     let sole = &mut robot.sole;
-    for length in [&mut sole.behind, &mut sole.ahead, &mut sole.half_width, &mut sole.ankle_height] {
+    for length in [&mut sole.behind, &mut sole.ahead, &mut sole.inside, &mut sole.outside, &mut sole.ankle_height] {
         *length *= scale;
     }
     for (thigh, after) in [(Joint::RightKnee, Joint::RightHipPitch), (Joint::LeftHipPitch, Joint::LeftKnee)] {
@@ -146,7 +146,7 @@ fn map_of_our_own(scale: f64) -> String {
          gear_ratio = {}\nvoltage_max_v = {}\n",
         sole.behind * scale,
         sole.ahead * scale,
-        2.0 * sole.half_width * scale,
+        (sole.inside + sole.outside) * scale,
         sole.ankle_height * scale,
         motor.resistance / scale.powi(4),
         motor.torque_constant,

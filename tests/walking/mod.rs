@@ -23,6 +23,7 @@ mod walks_by_every_extreme_of_what_is_granted;
 mod walks_in_every_direction;
 mod walks_on_after_pushes;
 mod walks_on_slopes_and_with_payload;
+mod walks_on_soles_that_are_shifted;
 mod walks_on_uneven_ground;
 mod walks_on_what_it_does_not_know;
 mod walks_through_sensor_faults;

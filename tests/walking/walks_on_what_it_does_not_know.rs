@@ -1,4 +1,5 @@
-//! The floor's friction, the masses, the load and the sensors' delay may be other than the controller believes.
+//! The floor's friction, the masses, the load, the servos and the sensors' delay may be other than the controller
+//! believes.
 //! `cargo run --release -p halfstep-survey -- variations` walks longer and by more commands.
 
 use halfstep_tests::mechanism;
@@ -31,6 +32,13 @@ fn walks_on_a_smooth_floor_it_does_not_know() {
 #[test]
 fn walks_with_masses_it_does_not_know() {
     assert_walks("masses ±5 %", |plant| plant.mass_error = 0.05);
+}
+
+#[test]
+fn walks_with_servos_it_does_not_know() {
+    for stiffness in [0.7, 1.4] {
+        assert_walks(&format!("servos of {stiffness} the stiffness"), |plant| plant.servo.stiffness = stiffness);
+    }
 }
 
 #[test]

@@ -35,8 +35,15 @@ class Mechanism:
         self.joints = told["joint"]
         sole = told["sole"]
         self.ankle_height = sole["ankle_height_m"]
-        behind, ahead, half = -sole["behind_m"], sole["ahead_m"], sole["width_m"] / 2
-        self.sole = np.array([[behind, -half, 0], [ahead, -half, 0], [ahead, half, 0], [behind, half, 0], [behind, -half, 0]])
+        inside, outside = (sole.get(key, sole.get("width_m", 0) / 2) for key in ("inside_m", "outside_m"))
+        self.outlines = [self.outline(sole, *edges) for edges in ((-outside, inside), (-inside, outside))]
+
+    @staticmethod
+    def outline(sole, right, left):
+        """The corners of a sole between its right and its left edge, in its own frame; the first one twice."""
+        behind, ahead = -sole["behind_m"], sole["ahead_m"]
+        corners = [[behind, right, 0], [ahead, right, 0], [ahead, left, 0], [behind, left, 0], [behind, right, 0]]
+        return np.array(corners)
 
     def poses(self, right_sole, angles):
         """Rotation and place of each joint's link in the world, with the right sole where it is."""
@@ -140,8 +147,9 @@ def draw(reader, mechanism, every):
 def draw_robot(mechanism, poses, soles, truth):
     """Its bones and its soles."""
     rr.log("world/robot", rr.LineStrips3D(list(mechanism.bones(poses)), colors=[BODY], radii=[0.012]))
-    for side, colour, (turn, place), load in zip(("right", "left"), (RIGHT, LEFT), soles, truth.loads):
-        outline = mechanism.sole @ turn.T + place
+    sides = zip(("right", "left"), (RIGHT, LEFT), soles, mechanism.outlines, truth.loads)
+    for side, colour, (turn, place), corners, load in sides:
+        outline = corners @ turn.T + place
         thick = 0.008 if load > BEARS else 0.002
         rr.log(f"world/sole/{side}", rr.LineStrips3D([outline], colors=[colour], radii=[thick]))
         rr.log(f"load/{side}", rr.Scalars(load))

@@ -201,6 +201,14 @@ impl<'d> Table<'d> {
         }
     }
 
+    /// Refuses a key that older files had, where it is present; `must` states what became of it. It is not among the
+    /// keys that are suggested for unknown ones.
+    pub fn refuse_former(&self, key: &str, must: &str) {
+        if self.entries.is_some_and(|entries| entries.get(key).is_some()) && self.has(key) {
+            self.refuse(key, must);
+        }
+    }
+
     fn place(&self, key: &str) -> Place<'d> {
         let value = self.entries.and_then(|entries| entries.get(key)).map(Spanned::span);
         Place { source: self.source, path: self.path_of(key), value, table: self.span.clone() }

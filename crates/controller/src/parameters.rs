@@ -80,9 +80,10 @@ fn zmp(table: &Table) -> ZmpParameters {
 }
 
 fn feedback(table: &Table) -> FeedbackParameters {
+    let must = "must be removed: it is stiffness_n_m_per_rad of [servo.legs_and_waist] in the robot's mechanism.toml";
+    table.refuse_former("ankle_stiffness_n_m_per_rad", must);
     FeedbackParameters {
         gain: table.number("gain").between(0.0, 20.0),
-        ankle_stiffness: table.number("ankle_stiffness_n_m_per_rad").between(1.0, 1e6),
         edge: table.number("edge_m").between(0.0, 0.1),
         foot_damping_time_constant: table.number("zmp_lag_s").between(1e-4, 10.0),
         support_ankle_time_constant: table.number("lag_s").between(1e-4, 10.0),
@@ -177,6 +178,16 @@ mod tests {
         for wrong in ["-1", "0.01", "1000", "nan"] {
             assert!(timeout(&format!("age_limit_s = {wrong}")).is_err(), "{wrong}");
         }
+    }
+
+    #[test]
+    fn the_stiffness_of_the_ankle_is_the_mechanisms() {
+        let errors = with("gain = 3", "gain = 3\nankle_stiffness_n_m_per_rad = 5000").unwrap_err();
+        assert_eq!(
+            errors,
+            "f:42:31: feedback.ankle_stiffness_n_m_per_rad = 5000: must be removed: it is stiffness_n_m_per_rad of \
+             [servo.legs_and_waist] in the robot's mechanism.toml"
+        );
     }
 
     #[test]

@@ -49,7 +49,7 @@ impl ReferenceDynamics {
         let mut dynamics = Self {
             inverse: NewtonEuler::default(),
             other: NewtonEuler::default(),
-            sole: SupportPolygon::hull(mechanism.sole.corners().map(|corner| corner.xy())),
+            sole: SupportPolygon::hull(mechanism.sole.corners(Side::Right).map(|corner| corner.xy())),
             soles: mechanism.sole,
             rotors,
             vertical: Vector2::zeros(),
@@ -134,9 +134,10 @@ impl ReferenceDynamics {
 
     /// Where the way from ankle to ankle leaves the support sole and enters the other one, taken to be parallel (-).
     fn gap(&self, way: Vector2<f64>) -> (f64, f64) {
-        let Sole { ahead, behind, half_width, .. } = self.soles;
+        let Sole { ahead, behind, inside, outside, .. } = self.soles;
         let share = |room: f64, length: f64| if length.abs() > room { room / length.abs() } else { 1.0 };
-        let aside = share(half_width, way.y);
+        // Both soles have the same side towards each other.
+        let aside = share(if way.y >= 0.0 { inside } else { outside }, way.y);
         let [before, beyond] = if way.x >= 0.0 { [ahead, behind] } else { [behind, ahead] };
         (share(before, way.x).min(aside), 1.0 - share(beyond, way.x).min(aside))
     }

@@ -53,8 +53,8 @@ impl Walk {
     ) -> Result<Self, WalkError> {
         let mirror = Mirror::new(mechanism).ok_or(WalkError::NoMirror)?;
         table.check(&mirror)?;
-        if table.mechanism != mechanism.fingerprint {
-            return Err(WalkError::OtherMechanism { table: table.mechanism, mechanism: mechanism.fingerprint });
+        if table.mechanism != mechanism.body_fingerprint {
+            return Err(WalkError::OtherMechanism { table: table.mechanism, mechanism: mechanism.body_fingerprint });
         }
         check_limits(&parameters.limits)?;
         check_start(&parameters.limits, &start.command)?;

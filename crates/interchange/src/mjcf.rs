@@ -180,8 +180,8 @@ fn foot(out: &mut XmlLines, mechanism: &Mechanism, side: Side, parameters: &Plan
     let sole = mechanism.sole;
     let height = sole.ankle_height / 2.0;
     let at = mechanism.sole_in_foot(side);
-    let half = Vector3::new((sole.ahead + sole.behind) / 2.0, sole.half_width, height / 2.0);
-    let centre = at + Vector3::new((sole.ahead - sole.behind) / 2.0, 0.0, height / 2.0);
+    let half = sole.half_size().push(height / 2.0);
+    let centre = at + sole.centre(side).push(height / 2.0);
     let name = side_name(side);
     out.line(format_args!(
         r#"<geom name="{name}_foot" type="box" pos="{}" size="{}" contype="0" conaffinity="1" condim="3" {friction} {CONTACT} rgba="0.85 0.5 0.25 1"/>"#,

@@ -4,10 +4,15 @@
 //! Lengths scale as the legs, times as the root of it (Froude's law), forces as the weight. What has no size, and what
 //! is a property of sensors, stays.
 
-use model::{LegReach, Mechanism};
+use model::{LegReach, Mechanism, Servo, Servos};
 
 /// Mass of the paper's robot, for which the files were written (kg).
 const PAPER_MASS: f64 = 73.031;
+/// Servos of the paper's robot.
+const PAPER_SERVOS: Servos = Servos {
+    legs_and_waist: Servo { stiffness: 5000.0, damping: 150.0 },
+    arms: Servo { stiffness: 500.0, damping: 15.0 },
+};
 /// Significant digits of a scaled number: no one measures more.
 const DIGITS: i32 = 4;
 
@@ -29,7 +34,6 @@ const CONTROLLER: &[Scaling] = &[
     by("gait", "speed_ramp_s", 0.0, 0.5),
     by("forecast", "clearance_min_m", 0.0, 1.0),
     by("zmp", "force_min_n", 1.0, 0.0),
-    by("feedback", "ankle_stiffness_n_m_per_rad", 1.0, 1.0),
     by("feedback", "edge_m", 0.0, 1.0),
     by("feedback", "zmp_lag_s", 0.0, 0.5),
     by("feedback", "lag_s", 0.0, 0.5),
@@ -46,10 +50,6 @@ const PLANT: &[Scaling] = &[
     by("contact", "damping_n_s_per_m", 1.0, -0.5),
     by("contact", "stiffness_tangential_n_per_m", 1.0, -1.0),
     by("contact", "damping_tangential_n_s_per_m", 1.0, -0.5),
-    by("servo.legs_and_waist", "stiffness_n_m_per_rad", 1.0, 1.0),
-    by("servo.legs_and_waist", "damping_n_m_s_per_rad", 1.0, 1.5),
-    by("servo.arms", "stiffness_n_m_per_rad", 1.0, 1.0),
-    by("servo.arms", "damping_n_m_s_per_rad", 1.0, 1.5),
     by("sensors", "force_noise_n", 1.0, 0.0),
     by("sensors", "moment_noise_n_m", 1.0, 1.0),
 ];
@@ -66,6 +66,19 @@ pub fn controller_text(paper: &str, mechanism: &Mechanism) -> String {
 /// * `paper` – that of the paper's robot
 pub fn plant_text(paper: &str, mechanism: &Mechanism) -> String {
     scaled(paper, PLANT, mechanism)
+}
+
+/// The servos of a robot's drives: stiffness as weight times length, and damping as that times the time.
+///
+/// * `mass` – of the robot (kg)
+/// * `leg` – length of its stretched leg from hip to ankle (m)
+pub(crate) fn servos(mass: f64, leg: f64) -> Servos {
+    let [mass, length] = [mass / PAPER_MASS, leg / LegReach::PAPER_LENGTH];
+    let scaled = |servo: Servo| Servo {
+        stiffness: rounded(servo.stiffness * mass * length),
+        damping: rounded(servo.damping * mass * length.powf(1.5)),
+    };
+    Servos { legs_and_waist: scaled(PAPER_SERVOS.legs_and_waist), arms: scaled(PAPER_SERVOS.arms) }
 }
 
 /// Scales the numbers in a file line by line, so that its comments stay.
@@ -140,6 +153,8 @@ mod tests {
         let paper = PlantParameters::load(format!("{FOLDER}/plant.toml")).expect("it loads");
         let text_of_plant = plant_text(&text("plant.toml"), &mechanism());
         assert_eq!(PlantParameters::from_toml(&text_of_plant, "plant.toml").expect("it loads"), paper);
+        let own = mechanism();
+        assert_eq!(servos(own.mass(), LegReach::of(&own).length()), own.servos);
         for (name, scalings) in [("controller.toml", CONTROLLER), ("plant.toml", PLANT)] {
             let file = text(name);
             for Scaling { table, key, .. } in scalings {
@@ -161,7 +176,7 @@ mod tests {
         let plant =
             PlantParameters::from_toml(&plant_text(&text("plant.toml"), &half), "plant.toml").expect("it loads");
         assert!((plant.contact.stiffness - 2.5e5).abs() < 1e2, "{}", plant.contact.stiffness);
-        let knee = plant.servo[model::Joint::RightKnee];
+        let knee = servos(half.mass(), LegReach::of(&half).length()).legs_and_waist;
         assert!((knee.stiffness - 312.5).abs() < 0.1 && (knee.damping - 6.629).abs() < 0.01, "{knee:?}");
         let controller = controller_text(&text("controller.toml"), &half);
         assert!(controller.contains("\nforce_min_n = 6.25\n"));

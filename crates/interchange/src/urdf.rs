@@ -109,8 +109,8 @@ fn origin(out: &mut XmlLines, place: Vector3<f64>) {
 fn foot_box(mechanism: &Mechanism, side: Side) -> (Vector3<f64>, Vector3<f64>) {
     let sole = mechanism.sole;
     let height = sole.ankle_height / 2.0;
-    let centre = mechanism.sole_in_foot(side) + Vector3::new((sole.ahead - sole.behind) / 2.0, 0.0, height / 2.0);
-    (centre, Vector3::new(sole.ahead + sole.behind, 2.0 * sole.half_width, height))
+    let centre = mechanism.sole_in_foot(side) + sole.centre(side).push(height / 2.0);
+    (centre, (2.0 * sole.half_size()).push(height))
 }
 
 /// Sides of the box of uniform density that has the body's mass and moments (m): they follow from Iz = m (a² + b²) / 12

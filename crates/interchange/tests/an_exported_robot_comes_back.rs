@@ -60,9 +60,26 @@ fn exported_urdf_needs_no_map_at_all() {
     let file: toml::Table = imported.text.parse().unwrap();
     let ours = mechanism().sole;
     let told = ["behind_m", "ahead_m", "width_m", "ankle_height_m"].map(|key| number(&file["sole"][key]));
-    let expected = [ours.behind, ours.ahead, 2.0 * ours.half_width, ours.ankle_height];
+    let expected = [ours.behind, ours.ahead, ours.inside + ours.outside, ours.ankle_height];
     assert!(told.iter().zip(expected).all(|(told, ours)| (told - ours).abs() < 1e-9), "{told:?}");
     assert_eq!(imported.name, mechanism().name);
+}
+
+/// Also as its own map tells them.
+#[test]
+fn soles_that_are_shifted_are_read_off_the_feet() {
+    let mut robot = mechanism();
+    (robot.sole.inside, robot.sole.outside) = (0.02, 0.05);
+    let text = urdf(&robot).text();
+    let urdf = NamedText { text: &text, file: "robot.urdf" };
+    let found = import(urdf, None).unwrap_or_else(|error| panic!("{error}"));
+    let told = import(urdf, Some(NamedText { text: &found.map, file: "map.toml" }));
+    for imported in [&found, &told.unwrap_or_else(|error| panic!("{error}"))] {
+        let file: toml::Table = imported.text.parse().unwrap();
+        let aside = ["inside_m", "outside_m"].map(|key| number(&file["sole"][key]));
+        assert!((aside[0] - 0.02).abs() < 1e-9 && (aside[1] - 0.05).abs() < 1e-9, "{aside:?}");
+        assert!(file["sole"].get("width_m").is_none());
+    }
 }
 
 #[test]
@@ -297,7 +314,7 @@ fn read(robot: &TestElement, map: &str) -> Result<Imported, String> {
 fn map() -> String {
     let config = config_text();
     // name, sole and motors as in our own file
-    let mut text = config[..config.find("[joint.").unwrap()].to_string();
+    let mut text = config[..config.find("[servo.").unwrap()].to_string();
     for joint in Joint::ALL.into_iter().filter(|joint| joint.is_powered()) {
         let (motor, rate) = if joint.is_in_arm() { ("arm", 600) } else { ("leg", 500) };
         text += &format!(

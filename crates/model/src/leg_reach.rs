@@ -6,9 +6,6 @@ use nalgebra::{Vector2, Vector3};
 
 use crate::{Joint, Mechanism, Side};
 
-/// Length of the paper's robot from ankle over knee to hip (m).
-const PAPER_LEG: f64 = 0.434 + 0.422;
-
 /// Hips and ankles as points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LegReach {
@@ -24,6 +21,9 @@ pub struct LegReach {
 }
 
 impl LegReach {
+    /// Length of the paper's robot's leg from ankle over knee to hip (m).
+    pub const PAPER_LENGTH: f64 = 0.434 + 0.422;
+
     /// The legs of a mechanism.
     pub fn of(mechanism: &Mechanism) -> Self {
         let joints = mechanism.leg(Side::Right);
@@ -57,6 +57,6 @@ impl LegReach {
     /// Length of the leg per that of the paper's robot, 0.856 m (-). A length that was found for that robot suits
     /// another one when multiplied by it, a time when multiplied by its square root (Froude's law).
     pub fn scale(&self) -> f64 {
-        self.length() / PAPER_LEG
+        self.length() / Self::PAPER_LENGTH
     }
 }

@@ -13,6 +13,7 @@ mod mechanism_file;
 mod mirror;
 mod motion;
 mod per_joint;
+mod servo;
 mod side;
 mod sole;
 mod urdf_source;
@@ -26,6 +27,7 @@ pub use mechanism::{Body, DcMotor, JointLimits, Link, Mechanism, Motor, TorqueSo
 pub use mirror::{Mirror, Mirrored, partner};
 pub use motion::Motion;
 pub use per_joint::{JointVector, PerJoint};
+pub use servo::{Servo, Servos};
 pub use side::Side;
 pub use sole::Sole;
 pub use urdf_source::{HeldJoint, UrdfJoint, UrdfSource};

@@ -5,7 +5,7 @@
 
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
-use crate::{Joint, JointOrder, PerJoint, Side, Sole, UrdfSource};
+use crate::{Joint, JointOrder, PerJoint, Servos, Side, Sole, UrdfSource};
 
 /// The kinematic tree of the robot with its masses, limits and motors. Read-only once loaded.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,10 +19,14 @@ pub struct Mechanism {
     pub order: JointOrder,
     /// The soles, alike on both feet.
     pub sole: Sole,
+    /// The position servos of its drives.
+    pub servos: Servos,
     /// The URDF that it was imported from, if it was.
     pub source: Option<UrdfSource>,
     /// A number that differs when anything physical about the mechanism differs; controller and plant compare it.
     pub fingerprint: u64,
+    /// The same without the servos: what a nominal half-step depends on. No gain of a servo changes the planned motion.
+    pub body_fingerprint: u64,
 }
 
 /// A joint and the link that it carries.
@@ -159,6 +163,11 @@ impl Motor {
 }
 
 impl DcMotor {
+    /// Speed of the joint without load, at which the back-EMF takes all of the voltage (rad/s).
+    pub fn no_load_speed(&self) -> f64 {
+        self.voltage_max / (self.torque_constant * self.gear_ratio)
+    }
+
     /// Torque at the joint for a voltage at standstill (N·m/V).
     pub fn torque_per_volt(&self) -> f64 {
         self.gear_ratio * self.torque_constant / self.resistance

@@ -278,7 +278,56 @@ fn the_fingerprint_depends_on_numbers_only() {
     assert_eq!(fingerprint(&reordered), original, "the order of keys does not count");
     let heavier = text.replace("mass_kg = 28.625", "mass_kg = 28.626");
     assert_ne!(fingerprint(&heavier), original, "a gram counts");
+    let stiffer = text.replace("stiffness_n_m_per_rad = 5000", "stiffness_n_m_per_rad = 5001");
+    assert_ne!(fingerprint(&stiffer), original, "the servos count");
     let renamed = text.replace("name = \"human-size biped\"", "name = \"another\"");
     assert_ne!(renamed, text);
     assert_eq!(fingerprint(&renamed), original, "the name does not count");
+}
+
+/// The nominal half-step stays valid: it is planned without drives.
+#[test]
+fn the_fingerprint_of_the_body_does_not_depend_on_the_servos() {
+    let text = committed();
+    let body =
+        |text: &str| Mechanism::from_toml(text, "x").unwrap_or_else(|errors| panic!("{errors}")).body_fingerprint;
+    let stiffer = text.replace("stiffness_n_m_per_rad = 5000", "stiffness_n_m_per_rad = 4000");
+    let heavier = text.replace("mass_kg = 28.625", "mass_kg = 28.626");
+    assert!(stiffer != text && body(&stiffer) == body(&text));
+    assert_ne!(body(&heavier), body(&text));
+}
+
+#[test]
+fn a_mechanism_without_servos_is_told_where_they_were() {
+    let text = committed();
+    let begin = text.find("[servo.legs_and_waist]").expect("a table");
+    let end = begin + text[begin..].find("[joint.foot_roll]").expect("the next one");
+    let errors = Mechanism::from_toml(&(text[..begin].to_owned() + &text[end..]), "m.toml").expect_err("none");
+    let must =
+        "servo: must have the tables [servo.legs_and_waist] and [servo.arms]: until 0.1.0 they were in plant.toml";
+    assert_eq!(errors.to_string(), format!("m.toml:1:1: {must}"));
+}
+
+#[test]
+fn a_sole_has_a_width_or_two_edges() {
+    let text = committed();
+    let with = |aside: &str| Mechanism::from_toml(&text.replace("width_m = 0.08", aside), "m.toml");
+    let loaded = |aside: &str| with(aside).unwrap_or_else(|errors| panic!("{errors}"));
+    let [committed, same, shifted, other] =
+        ["width_m = 0.08", "inside_m = 0.04\noutside_m = 0.04", "inside_m = 0.02\noutside_m = 0.05", "width_m = 0.07"]
+            .map(loaded);
+    assert_eq!(same, committed);
+    assert_eq!((shifted.sole.inside, shifted.sole.outside), (0.02, 0.05));
+    assert_ne!(shifted.body_fingerprint, other.body_fingerprint);
+    for (aside, refusal) in [
+        (
+            "width_m = 0.08\ninside_m = 0.04",
+            "sole.width_m = 0.08: must be left out: inside_m and outside_m tell both edges",
+        ),
+        ("inside_m = 0.04", "sole.outside_m: is missing: it must be a finite number"),
+        ("inside_m = -0.04\noutside_m = 0.1", "sole.inside_m = -0.04: must lie between 0.001 and 2"),
+    ] {
+        let errors = with(aside).expect_err("a wrong sole").to_string();
+        assert!(errors.contains(refusal), "{errors}");
+    }
 }

@@ -153,7 +153,7 @@ impl ConfigFiles {
         let mechanism = errors.note(self.load::<Mechanism>(&mechanism_file));
         let nominal = errors.note(self.load_nominal(&nominal_file));
         let (mechanism, nominal) = (mechanism?, nominal?);
-        if nominal.mechanism == mechanism.fingerprint {
+        if nominal.mechanism == mechanism.body_fingerprint {
             errors.0.extend(check_nominal(&mechanism, &nominal, &nominal_file));
         } else {
             errors.0.push(format!(
@@ -161,7 +161,7 @@ impl ConfigFiles {
                 nominal_file.display(),
                 nominal.mechanism,
                 mechanism_file.display(),
-                mechanism.fingerprint,
+                mechanism.body_fingerprint,
                 self.advice(&mechanism_file, &nominal_file),
             ));
         }

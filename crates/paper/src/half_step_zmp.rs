@@ -93,7 +93,7 @@ mod tests {
 
     use super::*;
 
-    const SOLE: Sole = Sole { behind: 0.07, ahead: 0.21, half_width: 0.04, ankle_height: 0.07 };
+    const SOLE: Sole = Sole { behind: 0.07, ahead: 0.21, inside: 0.04, outside: 0.04, ankle_height: 0.07 };
 
     #[test]
     fn zmp_path_is_outside_the_sole_when_one_point_is() {

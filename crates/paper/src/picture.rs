@@ -30,8 +30,8 @@ pub fn paper_figure(figure: &Figure, robot: &Robot, reading: Reading) -> Result<
     if scenario.request.extension != 0.0 {
         let as_nominal = Command { extension: 0.0, ..scenario.request };
         let nominal = SteadyHalfStep::steady(robot, &as_nominal, reading)?;
-        for (_, foot) in footprints(&nominal, count) {
-            let corners = sole_outline(mechanism, &in_space(&foot));
+        for (side, foot) in footprints(&nominal, count) {
+            let corners = sole_outline(mechanism, side, &in_space(&foot));
             chart.line(corners.into_iter().chain([corners[0]]), Pen::dashed(PLANNED, 0.8));
         }
         chart.key_line("nominal steps", Pen::dashed(PLANNED, 0.8));
@@ -81,7 +81,7 @@ fn footprints(half_steps: &[SteadyHalfStep; 2], count: usize) -> Vec<(Side, Isom
 /// Draws the path with a dot at its start and, unless it stays in one spot, an arrow head at its end.
 fn draw_zmp(chart: &mut Chart, mechanism: &Mechanism, path: &[Point], pen: Pen) {
     chart.line(path.iter().copied(), pen);
-    let size = mechanism.sole.half_width / 2.5;
+    let size = mechanism.sole.half_size().y / 2.5;
     let (Some(&start), Some(&tip)) = (path.first(), path.last()) else { return };
     let dot = |corner: u32| {
         let angle = f64::from(corner) * std::f64::consts::FRAC_PI_4;

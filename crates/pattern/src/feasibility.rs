@@ -190,9 +190,9 @@ impl FeasibilityCheck {
             feasibility.note(Limit::SoleClearance, height, height_min);
             return;
         }
-        let gap = sole.corners().into_iter().fold(f64::INFINITY, |gap, corner| {
+        let gap = sole.corners(Side::Left).into_iter().fold(f64::INFINITY, |gap, corner| {
             let point: Vector2<f64> = (swing_sole * Point3::from(corner)).coords.xy();
-            let beside = Vector2::new(point.x.clamp(-sole.behind, sole.ahead), point.y.min(sole.half_width));
+            let beside = Vector2::new(point.x.clamp(-sole.behind, sole.ahead), point.y.min(sole.inside));
             gap.min((point - beside).norm())
         });
         if gap < self.parameters.clearance_min {

@@ -53,6 +53,19 @@ pub(crate) struct Feet {
     pub landing: SolePose,
 }
 
+impl Feet {
+    /// A point between both soles before the swing foot leaves, in support coordinates (m).
+    ///
+    /// * `share` – of the support sole: 1 is a point of it
+    /// * `aside` – how far to the left of the support ankle the point of the support sole is (m); that of the other
+    ///   sole is its mirror image
+    pub(crate) fn between(&self, share: f64, aside: f64) -> Vector2<f64> {
+        let of_other = rotation_about_z(self.lift_off.yaw) * Vector3::new(0.0, -aside, 0.0);
+        let middle = Vector2::new(0.0, aside) * share + of_other.xy() * (1.0 - share);
+        self.lift_off.position.xy() * (1.0 - share) + middle
+    }
+}
+
 impl FootstepPlan {
     /// A walk at the very beginning of its first half-step.
     pub(crate) fn walking(model: &PatternModel, walk: Walk) -> Self {

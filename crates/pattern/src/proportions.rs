@@ -21,7 +21,7 @@ pub(crate) struct PatternProportions {
     pub step_adjustment_max: Vector2<f64>,
     /// Smallest change of an adjustment that is worth another plan (m).
     pub step_adjustment_change_min: f64,
-    /// Smallest lateral distance of the middles of both soles after an adjustment (m).
+    /// Smallest lateral distance of the ankles after an adjustment (m).
     pub sole_spacing_min: f64,
     /// Smallest height of the swing sole over the ground in mid-swing (m).
     pub swing_height_min: f64,
@@ -75,7 +75,7 @@ impl PatternProportions {
             hip_offset_max: HIP_OFFSET_MAX * scale,
             step_adjustment_max: STEP_ADJUSTMENT_MAX * scale,
             step_adjustment_change_min: STEP_ADJUSTMENT_CHANGE_MIN * scale,
-            sole_spacing_min: 2.0 * mechanism.sole.half_width + SOLE_GAP_MIN * scale,
+            sole_spacing_min: 2.0 * mechanism.sole.inside + SOLE_GAP_MIN * scale,
             swing_height_min: SWING_HEIGHT_MIN * scale,
             swing_clearance_max: SWING_CLEARANCE_MAX * scale,
             swing_clearance_time_constant: SWING_CLEARANCE_TIME_CONSTANT * slower,

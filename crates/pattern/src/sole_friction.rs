@@ -1,7 +1,7 @@
 //! What a rectangular sole holds by friction: the closed form of Caron, Pham and Nakamura (2015), "Stability of surface
 //! contacts for humanoid robots".
 
-use model::{Sole, Wrench};
+use model::{Side, Sole, Wrench};
 use nalgebra::Vector3;
 
 /// Friction under one sole.
@@ -18,13 +18,13 @@ pub(crate) struct SoleFriction {
 }
 
 impl SoleFriction {
-    /// A sole on ground with a coefficient of friction.
+    /// The right sole on ground with a coefficient of friction.
     pub(crate) fn new(sole: &Sole, coefficient: f64) -> Self {
         Self {
             coefficient,
-            half_length: (sole.ahead + sole.behind) / 2.0,
-            half_width: sole.half_width,
-            centre: Vector3::new((sole.ahead - sole.behind) / 2.0, 0.0, 0.0),
+            half_length: sole.half_size().x,
+            half_width: sole.half_size().y,
+            centre: sole.centre(Side::Right).push(0.0),
         }
     }
 
@@ -59,7 +59,7 @@ impl SoleFriction {
 mod tests {
     use super::*;
 
-    const SOLE: Sole = Sole { behind: 0.07, ahead: 0.21, half_width: 0.04, ankle_height: 0.1 };
+    const SOLE: Sole = Sole { behind: 0.07, ahead: 0.21, inside: 0.04, outside: 0.04, ankle_height: 0.1 };
 
     fn friction() -> SoleFriction {
         SoleFriction::new(&SOLE, 0.6)

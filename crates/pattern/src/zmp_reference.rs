@@ -1,13 +1,15 @@
 //! The ZMP reference: where the zero-moment point of the cart-table model shall be at the coming knots.
 
+use model::Side;
 use nalgebra::Vector2;
 
 use crate::footstep_plan::FootstepPlan;
 use crate::pattern_model::{KNOTS_PREVIEWED, PatternModel};
 use crate::preview_controller::PreviewController;
 
-/// The reference of the ZMP at the coming knots: under the support foot, less the part of the whole body's ZMP that the
-/// cart-table model leaves out. Computed anew when the footsteps change; else one knot is added as one is used.
+/// The reference of the ZMP at the coming knots: beside the support ankle, in the middle between the sole's sides, less
+/// the part of the whole body's ZMP that the cart-table model leaves out. Computed anew when the footsteps change; else
+/// one knot is added as one is used.
 #[derive(Clone, Debug)]
 pub(crate) struct ZmpReference {
     /// A ring of references in the walk frame (m); the next knot's is at `next`.
@@ -37,7 +39,7 @@ impl ZmpReference {
     pub(crate) fn advance(&mut self, model: &PatternModel) {
         self.footsteps.advance(model);
         let FootstepPlan { gait_state, feet, .. } = &self.footsteps;
-        let foot = feet.lift_off.position.xy() * (1.0 - gait_state.support_weight_share());
+        let foot = feet.between(gait_state.support_weight_share(), model.mechanism.sole.centre(Side::Right).y);
         self.zmps[self.next] = feet.footprint.point_to_walk(foot - self.footsteps.lipm_residual(model));
         self.next = (self.next + 1) % self.zmps.len();
     }

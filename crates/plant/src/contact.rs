@@ -91,7 +91,10 @@ impl FootContact {
         let offset = mechanism.sole_in_foot(side);
         Self {
             link,
-            corners: mechanism.sole.corners().map(|corner| Corner { in_link: corner + offset, ..Corner::default() }),
+            corners: mechanism
+                .sole
+                .corners(side)
+                .map(|corner| Corner { in_link: corner + offset, ..Corner::default() }),
             load: LinkLoad { link, wrench: Wrench::ZERO, added_inertia: Matrix6::zeros() },
         }
     }

@@ -42,12 +42,12 @@ impl Plant {
         (!moves || !self.robot.is_finite()).then_some(Instability { time, joint: None, speed })
     }
 
-    /// The settings of `config/plant.toml` that are likely to have made the simulation unstable, with their values:
-    /// those far from the usual ones, else those on which its stability depends.
+    /// The settings of `plant.toml`, and the servos of `mechanism.toml`, that are likely to have made the simulation
+    /// unstable, with their values: those far from the usual ones, else those on which its stability depends.
     pub fn unstable_settings(&self) -> Vec<String> {
         let parameters = &self.parameters;
-        let (contact, legs) = (&parameters.contact, &parameters.servo[Joint::RightKnee]);
-        let arms = &parameters.servo[Joint::RightElbow];
+        let (contact, shares, servos) = (&parameters.contact, &parameters.servo, &self.mechanism.servos);
+        let (legs, arms) = (&servos.legs_and_waist, &servos.arms);
         let weight_share = |mass: f64| mass / self.tree.mass;
         // Key, value, and what is usual for a robot of this mass.
         let scale = self.tree.mass / 73.0;
@@ -60,6 +60,8 @@ impl Plant {
             ("contact.stiffness_tangential_n_per_m", contact.stiffness_tangential, 0.0..=1e7 * scale),
             ("contact.damping_tangential_n_s_per_m", contact.damping_tangential, 0.0..=5e4 * scale),
             ("contact.friction", contact.friction, 0.0..=2.0),
+            ("servo.stiffness_share", shares.stiffness, 0.0..=10.0),
+            ("servo.damping_share", shares.damping, 0.0..=10.0),
             ("servo.legs_and_waist.stiffness_n_m_per_rad", legs.stiffness, 0.0..=5e4 * scale),
             ("servo.legs_and_waist.damping_n_m_s_per_rad", legs.damping, 0.0..=2e3 * scale),
             ("servo.arms.stiffness_n_m_per_rad", arms.stiffness, 0.0..=5e3 * scale),

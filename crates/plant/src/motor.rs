@@ -1,23 +1,15 @@
 //! DC motors and their drives: a position servo that commands a voltage, and the torque of the motor at that voltage.
 
-use config::Table;
 use interface::Setpoint;
-use model::{Joint, JointVector, Mechanism, Motor, PerJoint};
+use model::{Joint, JointVector, Mechanism, Motor, PerJoint, Servo};
 
-/// A drive's position servo, seen at the joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ServoParameters {
-    /// Torque per deviation of the angle (N·m/rad).
-    pub stiffness: f64,
-    /// Torque per deviation of the rate (N·m·s/rad).
-    pub damping: f64,
-}
+use crate::ServoShares;
 
 /// The drives of all joints.
 #[derive(Clone, Debug)]
 pub struct Drive {
     motors: PerJoint<Option<Motor>>,
-    servo: PerJoint<ServoParameters>,
+    servo: PerJoint<Servo>,
     /// Reflected inertias of the rotors at the joints (kg·m²).
     rotors: JointVector,
 }
@@ -34,22 +26,15 @@ pub struct DriveTorque {
     pub electrical: JointVector,
 }
 
-impl ServoParameters {
-    /// Reads a table of `[servo]`.
-    pub(crate) fn read(table: &Table) -> Self {
-        Self {
-            stiffness: table.number("stiffness_n_m_per_rad").between(0.0, 1e6),
-            damping: table.number("damping_n_m_s_per_rad").between(0.0, 1e5),
-        }
-    }
-}
-
 impl Drive {
     /// The drives of a mechanism.
-    pub fn new(mechanism: &Mechanism, servo: &PerJoint<ServoParameters>) -> Self {
+    ///
+    /// * `shares` – what the plant's servos have of the mechanism's
+    pub fn new(mechanism: &Mechanism, shares: ServoShares) -> Self {
         let motors = PerJoint::from_fn(|joint| mechanism.links[joint].motor);
         let rotors = PerJoint::from_fn(|joint| motors[joint].map_or(0.0, |motor| motor.reflected_inertia()));
-        Self { motors, servo: *servo, rotors }
+        let servo = PerJoint::from_fn(|joint| shares.of(mechanism.servos.of(joint)));
+        Self { motors, servo, rotors }
     }
 
     /// The torques towards a setpoint that is to be reached `lead` seconds after the end of this step. Angles (rad) and

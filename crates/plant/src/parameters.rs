@@ -1,9 +1,8 @@
 //! The parameters of the simulated robot beyond its mechanism.
 
 use config::{Config, Table};
-use model::PerJoint;
 
-use crate::{ContactParameters, Payload, SensorParameters, ServoParameters, Slope, Unevenness};
+use crate::{ContactParameters, Payload, SensorParameters, ServoShares, Slope, Unevenness};
 
 /// The parameters of the simulated robot; `config/plant.toml`.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,17 +19,14 @@ pub struct PlantParameters {
     pub payload: Payload,
     /// Contact of soles and ground.
     pub contact: ContactParameters,
-    /// The position servo of each joint's drive.
-    pub servo: PerJoint<ServoParameters>,
+    /// What the drives' servos have of the mechanism's.
+    pub servo: ServoShares,
     /// Delay, resolution and noise of the sensors.
     pub sensors: SensorParameters,
 }
 
 impl Config for PlantParameters {
     fn read(root: &Table) -> Self {
-        let servos = root.table("servo");
-        let (legs_and_waist, arms) =
-            (ServoParameters::read(&servos.table("legs_and_waist")), ServoParameters::read(&servos.table("arms")));
         Self {
             steps_per_period: root.integer("steps_per_period", 1, 100) as u32,
             mass_error: root.number("mass_error").between(0.0, 0.5),
@@ -38,7 +34,7 @@ impl Config for PlantParameters {
             unevenness: Unevenness::read(&root.table("unevenness")),
             payload: Payload::read(&root.table("payload")),
             contact: ContactParameters::read(&root.table("contact")),
-            servo: PerJoint::from_fn(|joint| if joint.is_in_arm() { arms } else { legs_and_waist }),
+            servo: ServoShares::read(root),
             sensors: SensorParameters::read(&root.table("sensors")),
         }
     }

@@ -54,7 +54,7 @@ impl Plant {
             robot: RobotState::on_right_foot(start, -sunk_in),
             disturbances: Disturbances::default(),
             contact: GroundContact::new(&mechanism),
-            drive: Drive::new(&mechanism, &parameters.servo),
+            drive: Drive::new(&mechanism, parameters.servo),
             sensors: Sensors::new(parameters.sensors, seed),
             fault_injector: FaultInjector::default(),
             body: ArticulatedBody::default(),

@@ -26,6 +26,7 @@ mod error;
 mod merge;
 mod message;
 mod new_file;
+mod older_files;
 mod older_layout;
 mod provenance;
 mod reader;

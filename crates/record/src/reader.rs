@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use mcap::records::Record;
 
+use crate::older_files::move_servos;
 use crate::older_layout::OlderLayout;
 use crate::record_stream::{RecordStream, Stop};
 use crate::schema::{self, HEAD, MESSAGE_ENCODING, SCHEMA_ENCODING};
@@ -84,7 +85,7 @@ pub fn files_of(run: &Path) -> Result<Vec<PathBuf>, RecordError> {
 }
 
 /// The provenance of a run, given by its recording or by the folder that holds it, wherever in the file another program
-/// has moved it. Of files with the same name the first is taken.
+/// has moved it. Of files with the same name the first is taken. Those of earlier versions are as this one reads them.
 ///
 /// # Errors
 /// See [`files_of`] and [`Recording::next_item`]; a file that is empty, or damaged before anything of the run.
@@ -105,6 +106,7 @@ pub fn provenance_of(run: &Path) -> Result<Provenance, RecordError> {
             return Err(RecordError::Unreadable { file, cause });
         }
     }
+    move_servos(&mut provenance);
     Ok(provenance)
 }
 

@@ -26,8 +26,6 @@ pub struct FeedbackParameters {
     /// ZMP shift per error of the divergent component of motion (m/m); above 1 the error shrinks. 0 switches feedback
     /// off.
     pub gain: f64,
-    /// Stiffness of an ankle's drive (N·m/rad): the moment on the ground per angle.
-    pub ankle_stiffness: f64,
     /// Least distance of the desired ZMP to the edge of the sole (m).
     pub edge: f64,
     /// Time constant of foot damping control, which corrects the error of the measured ZMP (s).
@@ -66,8 +64,10 @@ impl DcmFeedback {
     pub fn new(mechanism: &Mechanism, parameters: FeedbackParameters) -> Self {
         let proportions = StabilizerProportions::of(mechanism);
         let axis = |joint| mechanism.links[joint].axis.into_inner();
+        // The moment on the ground per angle of the ankle.
+        let ankle_stiffness = mechanism.servos.of(SUPPORT_ANKLE[0]).stiffness;
         Self {
-            lean_per_shift: proportions.weight / parameters.ankle_stiffness,
+            lean_per_shift: proportions.weight / ankle_stiffness,
             support_axes: SUPPORT_ANKLE.map(axis),
             swing_axes: SWING_ANKLE.map(axis),
             step_error: LowPass::new(ERROR_TIME_CONSTANT, Vector2::zeros()),
@@ -167,12 +167,14 @@ impl DcmFeedback {
         (zmp - sole_centre).zip_map(&room, |zmp, room| zmp.min(room).max(-room)) + sole_centre
     }
 
-    /// How far the ZMP can move from under the ankle in the direction of an error (m). A walk has it there; its present
-    /// place must not count, since a step that is planned anew moves that, and would take back itself.
+    /// How far the ZMP can move in the direction of an error (m) from where a walk has it: beside the ankle, in the
+    /// middle between the sole's sides. Its present place must not count, since a step that is planned anew moves that,
+    /// and would take back itself.
     fn room_towards(&self, error: Vector2<f64>) -> Vector2<f64> {
         let StabilizerProportions { sole_half_size, sole_centre, .. } = self.proportions;
         let edge = sole_half_size - Vector2::repeat(self.parameters.edge);
-        (edge + sole_centre.component_mul(&error.map(f64::signum))).map(|room| room.max(0.0))
+        let from_walk = Vector2::new(sole_centre.x, 0.0);
+        (edge + from_walk.component_mul(&error.map(f64::signum))).map(|room| room.max(0.0))
     }
 
     /// The error of the divergent component at touchdown that neither this ankle nor the next one can correct, in
@@ -229,7 +231,6 @@ mod tests {
     fn feedback() -> DcmFeedback {
         let parameters = FeedbackParameters {
             gain: 3.0,
-            ankle_stiffness: 5000.0,
             edge: 0.005,
             foot_damping_time_constant: 0.03,
             support_ankle_time_constant: 0.01,

@@ -3,7 +3,7 @@
 //! Those of the soles and the weight follow from the mechanism. The others were found for the paper's robot, with legs
 //! of 0.86 m from hip to ankle and soles of 0.28 m × 0.08 m; for another robot they are scaled by its legs.
 
-use model::{GRAVITY, LegReach, Mechanism};
+use model::{GRAVITY, LegReach, Mechanism, Side};
 use nalgebra::Vector2;
 
 /// Lengths and forces that suit the size of the robot.
@@ -13,7 +13,7 @@ pub(crate) struct StabilizerProportions {
     pub weight: f64,
     /// Half of the sole's length and width (m).
     pub sole_half_size: Vector2<f64>,
-    /// Centre of the sole, from the point under the ankle (m).
+    /// Centre of the support sole, from the point under the ankle (m).
     pub sole_centre: Vector2<f64>,
     /// Largest shift of the ZMP in double support (m).
     pub double_support_zmp_shift_max: f64,
@@ -51,8 +51,8 @@ impl StabilizerProportions {
         let scale = LegReach::of(mechanism).scale();
         Self {
             weight: mechanism.mass() * GRAVITY,
-            sole_half_size: Vector2::new((sole.ahead + sole.behind) / 2.0, sole.half_width),
-            sole_centre: Vector2::new((sole.ahead - sole.behind) / 2.0, 0.0),
+            sole_half_size: sole.half_size(),
+            sole_centre: sole.centre(Side::Right),
             double_support_zmp_shift_max: DOUBLE_SUPPORT_ZMP_SHIFT_MAX * scale,
             dcm_error_left_to_next_ankle: DCM_ERROR_LEFT_TO_NEXT_ANKLE * scale,
             dcm_error_large: DCM_ERROR_LARGE * scale,

@@ -12,7 +12,8 @@ use crate::support_frame_measurement::SupportFrameMeasurement;
 #[derive(Clone, Debug)]
 pub struct ZmpEstimator {
     parameters: ZmpParameters,
-    corners: [Point3<f64>; Sole::CORNERS],
+    /// Of the support and of the swing sole, each in its frame.
+    corners: [[Point3<f64>; Sole::CORNERS]; 2],
     /// Wrenches on the support and on the swing foot, each about the origin of its sole in sole axes.
     feet: Option<[LowPass<Wrench>; 2]>,
 }
@@ -47,7 +48,8 @@ impl ContactEstimate {
 impl ZmpEstimator {
     /// An estimator without any measurement yet.
     pub fn new(mechanism: &Mechanism, parameters: ZmpParameters) -> Self {
-        Self { parameters, corners: mechanism.sole.corners().map(Point3::from), feet: None }
+        let corners = Side::BOTH.map(|side| mechanism.sole.corners(side).map(Point3::from));
+        Self { parameters, corners, feet: None }
     }
 
     /// Absorbs a measurement.
@@ -84,8 +86,9 @@ impl ZmpEstimator {
             return ContactEstimate { loads, in_contact, ..ContactEstimate::AIRBORNE };
         };
 
-        let right = self.corners.iter().filter(|_| in_contact[0]).map(|corner| corner.coords.xy());
-        let left = self.corners.iter().filter(|_| in_contact[1]).map(|corner| (swing_sole * corner).coords.xy());
+        let [right, left] = &self.corners;
+        let right = right.iter().filter(|_| in_contact[0]).map(|corner| corner.coords.xy());
+        let left = left.iter().filter(|_| in_contact[1]).map(|corner| (swing_sole * corner).coords.xy());
         let margin = SupportPolygon::hull(right.chain(left)).margin(point);
         ContactEstimate { zmp: Some(point), margin, loads, in_contact }
     }

@@ -93,7 +93,7 @@ pub fn synthesize(
         duration: parameters.duration,
         rows,
         made_by: made_by.to_owned(),
-        mechanism: mechanism.fingerprint,
+        mechanism: mechanism.body_fingerprint,
     };
     Ok(Synthesis { table, report })
 }

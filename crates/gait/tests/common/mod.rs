@@ -50,7 +50,7 @@ pub(crate) fn other_reading() -> Mechanism {
 /// The synthetic half-step with 24 intervals.
 pub(crate) fn table(mechanism: &Mechanism) -> NominalTable {
     let rows = (0..=24).map(|row| nominal_row(mechanism, DURATION * f64::from(row) / 24.0)).collect();
-    NominalTable { duration: DURATION, rows, made_by: "a test's sines".into(), mechanism: mechanism.fingerprint }
+    NominalTable { duration: DURATION, rows, made_by: "a test's sines".into(), mechanism: mechanism.body_fingerprint }
 }
 
 /// A walk from the synthetic half-step.

@@ -1,6 +1,8 @@
 //! Range, rate and torque of a joint.
 
-use crate::import::import_map::{MapJoint, MapMotor};
+use model::DcMotor;
+
+use crate::import::import_map::MapJoint;
 use crate::import::urdf_robot::{JointKind, UrdfTreeJoint};
 
 /// Share of a motor's speed without load at which its joint is used at most.
@@ -78,7 +80,7 @@ impl DriveNotes {
 pub(super) fn drive(
     joint: &UrdfTreeJoint,
     map: MapJoint,
-    motors: &[(String, MapMotor)],
+    motors: &[(String, DcMotor)],
     scale: Scale,
     notes: &mut DriveNotes,
 ) -> Result<JointDrive, String> {
@@ -132,7 +134,7 @@ fn checked_range(lower: f64, upper: f64) -> Result<[f64; 2], String> {
 fn rate(
     joint: &UrdfTreeJoint,
     told: Option<f64>,
-    motor: Option<&(String, MapMotor)>,
+    motor: Option<&(String, DcMotor)>,
     scale: Scale,
     notes: &mut DriveNotes,
 ) -> f64 {

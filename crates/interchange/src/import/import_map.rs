@@ -1,10 +1,10 @@
 //! The map: what a URDF lacks (name, soles, motors), and what of the import shall be otherwise than found.
 
 use config::{ConfigErrors, Document, Table};
+use model::{DcMotor, Sole};
 
 use crate::import::NamedText;
 use crate::import::role::JointRole;
-use crate::import::sole::SoleSize;
 use crate::import::urdf_robot::{JointKind, UrdfRobot};
 use crate::import::urdf_tree::listed;
 
@@ -14,9 +14,9 @@ pub(super) struct ImportMap {
     /// Name of the robot, for users.
     pub name: Option<String>,
     /// The sole of each foot; `None` where it must be taken from the URDF.
-    pub sole: Option<SoleSize>,
+    pub sole: Option<Sole>,
     /// The motors with their names.
-    pub motors: Vec<(String, MapMotor)>,
+    pub motors: Vec<(String, DcMotor)>,
     /// What is told of joints by their role.
     pub joints: Vec<(JointRole, MapJoint)>,
     /// Joints of the URDF that are held, by index, each with its angle (rad).
@@ -38,29 +38,6 @@ pub(super) struct MapJoint {
     pub motor: Option<usize>,
 }
 
-/// A motor with its gear: keys and values of its table in the order of the file.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct MapMotor(pub [f64; 5]);
-
-/// Largest inertia of a rotor at its joint, as in a mechanism file (kg·m²).
-const REFLECTED_INERTIA_MAX: f64 = 100.0;
-/// Keys of a motor's table, each with the smallest and largest value.
-pub(super) const MOTOR_KEYS: [(&str, f64, f64); 5] = [
-    ("resistance_ohm", 1e-3, 1e4),
-    ("torque_constant_n_m_per_a", 1e-5, 100.0),
-    ("rotor_inertia_kg_m2", 1e-12, 1.0),
-    ("gear_ratio", 0.01, 1e4),
-    ("voltage_max_v", 0.1, 1000.0),
-];
-
-impl MapMotor {
-    /// Speed of the joint without load (rad/s).
-    pub(super) fn no_load_speed(&self) -> f64 {
-        let [_, torque_constant, _, gear_ratio, voltage] = self.0;
-        voltage / (torque_constant * gear_ratio)
-    }
-}
-
 impl ImportMap {
     /// What the map tells of a role.
     pub(super) fn joint(&self, role: JointRole) -> MapJoint {
@@ -77,10 +54,9 @@ impl ImportMap {
         let root = document.root();
         refuse_old_keys(&root);
         let name = root.has("name").then(|| root.text("name").to_string());
-        let sole = root.has("sole").then(|| SoleSize::read(&root.table("sole")));
-        let motors = if root.has("motor") { root.named_tables("motor") } else { Vec::new() };
-        let motors: Vec<(String, MapMotor)> =
-            motors.iter().map(|(name, table)| ((*name).to_string(), read_motor(table))).collect();
+        let sole = root.has("sole").then(|| Sole::read(&root.table("sole")));
+        let motors: Vec<(String, DcMotor)> =
+            DcMotor::read_all(&root).into_iter().map(|(name, motor)| (name.to_string(), motor)).collect();
         let mut taken = Taken { robot, by: vec![None; robot.joints.len()] };
         let mut joints = Vec::new();
         if root.has("joint") {
@@ -104,21 +80,7 @@ fn refuse_old_keys(root: &Table) {
     }
 }
 
-fn read_motor(table: &Table) -> MapMotor {
-    let motor = MapMotor(MOTOR_KEYS.map(|(key, min, max)| table.number(key).between(min, max)));
-    let [_, _, rotor, gear_ratio, _] = motor.0;
-    let reflected = rotor * gear_ratio * gear_ratio;
-    if reflected > REFLECTED_INERTIA_MAX {
-        let must = format!(
-            "must be smaller: times gear_ratio² it is {reflected:.0} kg·m² at the joint, and may be at most \
-             {REFLECTED_INERTIA_MAX}"
-        );
-        table.refuse("rotor_inertia_kg_m2", &must);
-    }
-    motor
-}
-
-fn read_joint(table: &Table, motors: &[(String, MapMotor)], taken: &mut Taken) -> MapJoint {
+fn read_joint(table: &Table, motors: &[(String, DcMotor)], taken: &mut Taken) -> MapJoint {
     if table.has("straight_deg") {
         let must = "must be removed: the URDF's zero is where the robot stands straight";
         table.refuse("straight_deg", must);

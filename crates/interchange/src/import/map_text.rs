@@ -1,7 +1,7 @@
 //! Writes the complete map of what an import found and took, to be edited and given back.
 
 use crate::import::import_map::ImportMap;
-use crate::import::mechanism_text::{Header, write_motors};
+use crate::import::mechanism_text::{Header, write_motors, write_sole};
 use crate::import::role::JointRole;
 use crate::import::toml_text::{COARSE, number, quoted, table};
 use crate::import::urdf_robot::UrdfRobot;
@@ -13,7 +13,7 @@ pub(super) fn write(robot: &UrdfRobot, map: &ImportMap, roles: &[(JointRole, usi
         quoted(header.urdf),
         quoted(header.name)
     );
-    table(&mut text, "[sole]", &header.sole.keys().map(|(key, value)| (key, number(value, COARSE))));
+    write_sole(&mut text, &header.sole);
     write_motors(&mut text, map);
     for (role, joint) in roles {
         let told = map.joint(*role);

@@ -1,13 +1,12 @@
 //! Writes an imported biped as the text of a mechanism file.
 
-use model::Side;
+use model::{Servos, Side, Sole};
 use nalgebra::{Isometry3, Unit, Vector3};
 
 use crate::import::biped::{Biped, Hinge, Segment};
 use crate::import::body::LumpedBody;
-use crate::import::import_map::{ImportMap, MOTOR_KEYS};
+use crate::import::import_map::ImportMap;
 use crate::import::role::JointRole;
-use crate::import::sole::SoleSize;
 use crate::import::toml_text::{COARSE, FINE, array, digits, number, quoted, table, vector};
 use crate::import::urdf_robot::UrdfRobot;
 
@@ -23,7 +22,9 @@ pub(super) struct Header<'h> {
     pub trunk_link: &'h str,
     /// Maps coordinates of the URDF's root link to those of the standing robot.
     pub root_to_stand: &'h Isometry3<f64>,
-    pub sole: SoleSize,
+    pub sole: Sole,
+    /// Servos of the drives: a URDF tells none.
+    pub servos: Servos,
     /// Inertia of a rotor at its joint (kg·m²), for joints without a motor.
     pub armature: f64,
     /// Joints that are held, by index, with their angles (rad).
@@ -38,8 +39,12 @@ pub(super) fn write(biped: &Biped, robot: &UrdfRobot, map: &ImportMap, header: &
         quoted(header.name)
     );
     table(&mut text, "[source]", &source(biped, header));
-    table(&mut text, "[sole]", &header.sole.keys().map(|(key, value)| (key, number(value, COARSE))));
+    write_sole(&mut text, &header.sole);
     write_motors(&mut text, map);
+    for (joints, servo) in [("legs_and_waist", header.servos.legs_and_waist), ("arms", header.servos.arms)] {
+        let gains = [("stiffness_n_m_per_rad", servo.stiffness), ("damping_n_m_s_per_rad", servo.damping)];
+        table(&mut text, &format!("[servo.{joints}]"), &gains.map(|(key, gain)| (key, gain.to_string())));
+    }
 
     let ankle = biped.ankle(0);
     let floor = Vector3::new(ankle.x, ankle.y, ankle.z - header.sole.ankle_height);
@@ -118,11 +123,16 @@ fn source(biped: &Biped, header: &Header) -> Keys {
     ]
 }
 
+/// Writes the table of the sole.
+pub(super) fn write_sole(text: &mut String, sole: &Sole) {
+    let keys: Vec<(&str, String)> = sole.keys().into_iter().map(|(key, value)| (key, number(value, COARSE))).collect();
+    table(text, "[sole]", &keys);
+}
+
 /// Writes the tables of the map's motors.
 pub(super) fn write_motors(text: &mut String, map: &ImportMap) {
     for (name, motor) in &map.motors {
-        let keys: Vec<(&str, String)> =
-            MOTOR_KEYS.iter().zip(motor.0).map(|((key, ..), value)| (*key, value.to_string())).collect();
+        let keys = motor.keys().map(|(key, value)| (key, value.to_string()));
         table(text, &format!("[motor.{}]", quoted(name)), &keys);
     }
 }

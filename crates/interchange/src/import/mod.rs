@@ -55,6 +55,8 @@ use posture::{Poses, held_angles};
 use sole::contact_points;
 use urdf_robot::UrdfRobot;
 
+use crate::scaled_parameters::servos;
+
 /// A biped imported from a URDF.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imported {
@@ -173,6 +175,7 @@ fn import_robot(robot: &UrdfRobot, map: &ImportMap, file: &str, errors: &mut Fil
         trunk_link: heaviest.map_or("", |(link, _)| link.name.as_str()),
         root_to_stand: &facing.root_to_stand,
         sole,
+        servos: servos(biped.mass(), scale.leg),
         armature: scale.armature(),
         held: &held,
     };

@@ -1,6 +1,6 @@
 //! The sole, told by the map or read off the collision shapes of the foot.
 
-use config::Table;
+use model::{Side, Sole};
 use nalgebra::{Isometry3, Point3, Vector3};
 
 use crate::import::file_errors::FileErrors;
@@ -9,69 +9,40 @@ use crate::import::urdf_robot::{Shape, Solid, UrdfRobot};
 
 /// How far above the lowest point of a foot its shapes still belong to the sole (m).
 const FLATNESS: f64 = 3e-3;
+/// Difference of two lengths that is rounding (m).
+const ROUNDING: f64 = 1e-5;
 
-/// A rectangular sole, seen from the point on it under the ankle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct SoleSize {
-    /// Distance back to the heel's edge (m).
-    pub behind: f64,
-    /// Distance forward to the toes' edge (m).
-    pub ahead: f64,
-    /// Width, half of it to either side (m).
-    pub width: f64,
-    /// Height of the ankle above the sole (m).
-    pub ankle_height: f64,
+/// The sole that the shapes of a foot make, seen from the ankle; `None` where there are none that make one.
+///
+/// * `points` – where the foot could touch a floor, in the frame of the standing robot
+/// * `ankle` – the foot's ankle, in the same frame (m)
+fn of_points(side: Side, points: &[Vector3<f64>], ankle: Vector3<f64>) -> Option<Sole> {
+    let lowest = points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
+    let on_sole: Vec<Vector3<f64>> =
+        points.iter().filter(|point| point.z <= lowest + FLATNESS).map(|point| point - ankle).collect();
+    let extent = |value: fn(&Vector3<f64>) -> f64| on_sole.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
+    let aside = [extent(|point| -point.y), extent(|point| point.y)];
+    // The right foot's inner edge is its left one.
+    let [outside, inside] = if side == Side::Right { aside } else { [aside[1], aside[0]] };
+    let (behind, ahead) = (extent(|point| -point.x), extent(|point| point.x));
+    let sole = Sole { behind, ahead, inside, outside, ankle_height: ankle.z - lowest };
+    let is_size = |size: f64| (1e-3..=2.0).contains(&size);
+    let is_sole = [behind, ahead, inside, outside].into_iter().all(is_size);
+    (is_sole && (0.0..=1.0).contains(&sole.ankle_height)).then_some(sole)
 }
 
-impl SoleSize {
-    /// Reads a table `[sole]`, noting what is wrong.
-    pub(super) fn read(table: &Table) -> Self {
-        Self {
-            behind: table.number("behind_m").between(1e-3, 2.0),
-            ahead: table.number("ahead_m").between(1e-3, 2.0),
-            width: table.number("width_m").between(1e-3, 2.0),
-            ankle_height: table.number("ankle_height_m").between(0.0, 1.0),
-        }
-    }
-
-    /// Keys and values of the table `[sole]`.
-    pub(super) fn keys(&self) -> [(&'static str, f64); 4] {
-        [
-            ("behind_m", self.behind),
-            ("ahead_m", self.ahead),
-            ("width_m", self.width),
-            ("ankle_height_m", self.ankle_height),
-        ]
-    }
-
-    /// The sole that the shapes of a foot make, seen from the ankle; `None` where there are none that make one.
-    ///
-    /// `points` are where the foot could touch a floor, in the frame of the standing robot. The rectangle is as wide as
-    /// fits on both sides of the ankle.
-    pub(super) fn of_points(points: &[Vector3<f64>], ankle: Vector3<f64>) -> Option<Self> {
-        let lowest = points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
-        let on_sole: Vec<Vector3<f64>> =
-            points.iter().filter(|point| point.z <= lowest + FLATNESS).map(|point| point - ankle).collect();
-        let extent = |value: fn(&Vector3<f64>) -> f64| on_sole.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
-        let sole = Self {
-            behind: extent(|point| -point.x),
-            ahead: extent(|point| point.x),
-            width: 2.0 * extent(|point| point.y).min(extent(|point| -point.y)),
-            ankle_height: ankle.z - lowest,
-        };
-        let sizes = [sole.behind, sole.ahead, sole.width];
-        (sizes.iter().all(|size| (1e-3..=2.0).contains(size)) && (0.0..=1.0).contains(&sole.ankle_height))
-            .then_some(sole)
-    }
-
-    /// The mean of two soles.
-    pub(super) fn mean(&self, other: &Self) -> Self {
-        Self {
-            behind: (self.behind + other.behind) / 2.0,
-            ahead: (self.ahead + other.ahead) / 2.0,
-            width: (self.width + other.width) / 2.0,
-            ankle_height: (self.ankle_height + other.ankle_height) / 2.0,
-        }
+/// The mean of two soles. What is as wide on both sides but for rounding, is so.
+fn mean(right: &Sole, left: &Sole) -> Sole {
+    let of = |length: fn(&Sole) -> f64| (length(right) + length(left)) / 2.0;
+    let [inside, outside] = [of(|sole| sole.inside), of(|sole| sole.outside)];
+    let [inside, outside] =
+        if (inside - outside).abs() < ROUNDING { [(inside + outside) / 2.0; 2] } else { [inside, outside] };
+    Sole {
+        behind: of(|sole| sole.behind),
+        ahead: of(|sole| sole.ahead),
+        inside,
+        outside,
+        ankle_height: of(|sole| sole.ankle_height),
     }
 }
 
@@ -85,14 +56,14 @@ pub(super) fn read_off(
     foot: &str,
     errors: &mut FileErrors,
     lines: &mut Vec<String>,
-) -> Option<SoleSize> {
-    let [right, left] = [0, 1].map(|side| SoleSize::of_points(&points[side], ankles[side]));
-    let Some(sole) = right.zip(left).map(|(right, left)| right.mean(&left)) else {
+) -> Option<Sole> {
+    let [right, left] = Side::BOTH.map(|side| of_points(side, &points[side.index()], ankles[side.index()]));
+    let Some(sole) = right.zip(left).map(|(right, left)| mean(&right, &left)) else {
         errors.note(format!(
             "link {foot}: the foot has no boxes, cylinders or spheres as <collision> that make a sole: measure it, \
              from the point on the sole under the ankle, and write into the map\n[sole]\nbehind_m = …        # back to \
              the heel's edge\nahead_m = …         # forward to the toes' edge\nwidth_m = …         # half of it to \
-             either side\nankle_height_m = …  # the ankle's axes above the sole"
+             either side, or inside_m and outside_m\nankle_height_m = …  # the ankle's axes above the sole"
         ));
         return None;
     };

@@ -16,7 +16,7 @@ pub(super) fn is_present(joint: Joint, table: &Table) -> bool {
 }
 
 /// Reads range, rate and motor of a joint.
-pub(super) fn read(table: &Table, motors: &[(&str, Motor)]) -> (Option<JointLimits>, Option<Motor>) {
+pub(super) fn read(table: &Table, motors: &[(&str, DcMotor)]) -> (Option<JointLimits>, Option<Motor>) {
     let [angle_min, angle_max] = table.angles("range_deg").increasing_between(-720.0, 720.0);
     let rate_max = table.angle("rate_max_deg_per_s").between(0.1, 1e4);
     let limits = Some(JointLimits { angle_min, angle_max, rate_max });
@@ -29,10 +29,9 @@ pub(super) fn read(table: &Table, motors: &[(&str, Motor)]) -> (Option<JointLimi
         };
         return (limits, Some(Motor::Torque(TorqueSource { effort, armature })));
     }
-    let motor = table.choice("motor", motors.iter().copied());
+    let motor = table.choice("motor", motors.iter().map(|(name, motor)| (*name, Motor::Dc(*motor))));
     if let Some(Motor::Dc(motor)) = motor {
-        // Without load the back-EMF takes all of the voltage.
-        let no_load = motor.voltage_max / (motor.torque_constant * motor.gear_ratio);
+        let no_load = motor.no_load_speed();
         if rate_max > no_load {
             let must = format!("must be at most {:.1}, the motor's speed without load", no_load.to_degrees());
             table.refuse("rate_max_deg_per_s", &must);
@@ -41,18 +40,27 @@ pub(super) fn read(table: &Table, motors: &[(&str, Motor)]) -> (Option<JointLimi
     (limits, motor)
 }
 
-impl Motor {
+impl DcMotor {
     /// Reads all tables `[motor.NAME]` of a file, noting what is wrong: name and motor of each. Joints of one type
     /// share a motor.
     pub fn read_all<'d>(root: &Table<'d>) -> Vec<(&'d str, Self)> {
         if !root.has("motor") {
             return Vec::new();
         }
-        root.named_tables("motor").iter().map(|(name, table)| (*name, Self::Dc(DcMotor::read(table)))).collect()
+        root.named_tables("motor").iter().map(|(name, table)| (*name, Self::read(table))).collect()
     }
-}
 
-impl DcMotor {
+    /// Keys and values of the motor's table.
+    pub fn keys(&self) -> [(&'static str, f64); 5] {
+        [
+            ("resistance_ohm", self.resistance),
+            ("torque_constant_n_m_per_a", self.torque_constant),
+            ("rotor_inertia_kg_m2", self.rotor_inertia),
+            ("gear_ratio", self.gear_ratio),
+            ("voltage_max_v", self.voltage_max),
+        ]
+    }
+
     fn read(table: &Table) -> Self {
         let motor = Self {
             resistance: table.number("resistance_ohm").between(1e-3, 1e4),

@@ -1,4 +1,4 @@
-//! The fingerprint: one number for everything physical about a mechanism.
+//! The fingerprints: one number for everything physical about a mechanism, and one for all of it but the servos.
 //!
 //! FNV-1a, 64 bits (Fowler, Noll, Vo; draft-eastlake-fnv), over the little-endian bytes of every number [`Mechanism`]
 //! holds, in the order of its fields and joints, in SI units. Names, comments and the order of the file's keys do not
@@ -6,19 +6,43 @@
 
 use crate::{Joint, Mechanism, Motor};
 
-/// The fingerprint of a mechanism.
-pub(super) fn of(mechanism: &Mechanism) -> u64 {
-    const OFFSET_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
-    const PRIME: u64 = 0x0000_0100_0000_01b3;
-    let mut hash = OFFSET_BASIS;
-    let mut add = |value: f64| {
-        for byte in (value + 0.0).to_bits().to_le_bytes() {
-            hash = (hash ^ u64::from(byte)).wrapping_mul(PRIME);
-        }
-    };
+/// The fingerprint of a mechanism, and that of its body, without the servos.
+pub(super) fn of(mechanism: &Mechanism) -> (u64, u64) {
+    let mut hash = Hash::default();
+    add_body(&mut hash, mechanism);
+    let body = hash.0;
+    for servo in [mechanism.servos.legs_and_waist, mechanism.servos.arms] {
+        hash.add(servo.stiffness);
+        hash.add(servo.damping);
+    }
+    (hash.0, body)
+}
 
+/// The state of the hash.
+struct Hash(u64);
+
+impl Default for Hash {
+    fn default() -> Self {
+        const OFFSET_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+        Self(OFFSET_BASIS)
+    }
+}
+
+impl Hash {
+    fn add(&mut self, value: f64) {
+        const PRIME: u64 = 0x0000_0100_0000_01b3;
+        for byte in (value + 0.0).to_bits().to_le_bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(PRIME);
+        }
+    }
+}
+
+fn add_body(hash: &mut Hash, mechanism: &Mechanism) {
+    let mut add = |value: f64| hash.add(value);
     let sole = mechanism.sole;
-    [sole.behind, sole.ahead, sole.half_width, sole.ankle_height].into_iter().for_each(&mut add);
+    // A sole that is as wide on both sides has one number, as it has one key.
+    let aside = if sole.inside == sole.outside { &[sole.inside][..] } else { &[sole.inside, sole.outside] };
+    [sole.behind, sole.ahead].iter().chain(aside).chain(&[sole.ankle_height]).copied().for_each(&mut add);
     for (_, link) in mechanism.links.iter() {
         add(f64::from(link.parent.map_or(0, Joint::number)));
         link.axis.iter().chain(link.origin.iter()).copied().for_each(&mut add);
@@ -41,5 +65,4 @@ pub(super) fn of(mechanism: &Mechanism) -> u64 {
             electric.into_iter().chain([motor.gear_ratio, motor.rotor_inertia]).for_each(&mut add);
         }
     }
-    hash
 }

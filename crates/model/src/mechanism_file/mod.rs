@@ -5,13 +5,15 @@
 mod body;
 mod drive;
 mod fingerprint;
+mod servo;
+mod sole;
 mod source;
 mod symmetry;
 
 use config::{Config, Table};
 use nalgebra::{Unit, Vector3};
 
-use crate::{Body, Joint, JointOrder, Link, Mechanism, Motor, PerJoint, Side, Sole};
+use crate::{Body, DcMotor, Joint, JointOrder, Link, Mechanism, PerJoint, Side, Sole};
 
 /// Largest distance between two joints (m).
 const LENGTH_MAX: f64 = 3.0;
@@ -21,35 +23,24 @@ impl Config for Mechanism {
     fn read(root: &Table) -> Self {
         let name = root.text("name").to_string();
         let sole = Sole::read(&root.table("sole"));
-        let motors = Motor::read_all(root);
+        let motors = DcMotor::read_all(root);
         let joint_table = root.table("joint");
         let tables = PerJoint::from_fn(|joint| joint_table.table(joint.name()));
         let links = PerJoint::from_fn(|joint| link(joint, &tables[joint], &motors));
         let order = order(&tables, &links);
+        let servos = servo::read(root);
         let source = source::read(root, &tables);
 
-        let mut mechanism = Mechanism { name, links, order, sole, source, fingerprint: 0 };
+        let mut mechanism = Mechanism { name, links, order, sole, servos, source, fingerprint: 0, body_fingerprint: 0 };
         if stands_on_its_sole(&tables, &mechanism) {
             symmetry::check(&tables, &mechanism);
         }
-        mechanism.fingerprint = fingerprint::of(&mechanism);
+        (mechanism.fingerprint, mechanism.body_fingerprint) = fingerprint::of(&mechanism);
         mechanism
     }
 }
 
-impl Sole {
-    /// Reads a table `[sole]`, noting what is wrong.
-    pub fn read(table: &Table) -> Self {
-        Self {
-            behind: table.number("behind_m").between(1e-3, 2.0),
-            ahead: table.number("ahead_m").between(1e-3, 2.0),
-            half_width: table.number("width_m").between(1e-3, 2.0) / 2.0,
-            ankle_height: table.number("ankle_height_m").between(0.0, 1.0),
-        }
-    }
-}
-
-fn link(joint: Joint, table: &Table, motors: &[(&str, Motor)]) -> Link {
+fn link(joint: Joint, table: &Table, motors: &[(&str, DcMotor)]) -> Link {
     let number = f64::from(joint.number());
     table.number("number").that(|value| value == number, &format!("must be {number}, the number of {}", joint.name()));
     let parent = parent(joint, table);

@@ -77,6 +77,7 @@ impl EngineSetup {
             return Err(EngineError::Uneven { height: parameters.unevenness.height });
         }
         let built = with_mass_error(mechanism, parameters.mass_error, seed);
+        let servo = |joint| parameters.servo.of(mechanism.servos.of(joint));
         let motors = || Joint::ALL.into_iter().filter_map(|joint| Some((joint, mechanism.links[joint].motor?)));
         let orientation = start.sole_to_world.rotation;
         Ok(Self {
@@ -85,8 +86,8 @@ impl EngineSetup {
             period_s: period,
             steps_per_period: parameters.steps_per_period,
             joints: motors().map(|(joint, _)| joint.name()).collect(),
-            stiffness: motors().map(|(joint, _)| parameters.servo[joint].stiffness).collect(),
-            damping: motors().map(|(joint, _)| parameters.servo[joint].damping).collect(),
+            stiffness: motors().map(|(joint, _)| servo(joint).stiffness).collect(),
+            damping: motors().map(|(joint, _)| servo(joint).damping).collect(),
             back_emf: motors().map(|(_, motor)| motor.back_emf_damping()).collect(),
             start: InitialState {
                 position: start.sole_to_world.translation.vector.into(),

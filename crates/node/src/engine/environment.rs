@@ -1,6 +1,6 @@
 //! The Python environment in which MuJoCo runs, created on first use.
 //!
-//! It lies in the user's cache folder, one for each list of packages, together with the script that runs in it. If
+//! It lies in the user's cache folder, one for each list of packages, together with the program that runs in it. If
 //! several walks start at once, a lock lets one create it while the others wait.
 
 use std::fs::{self, File};
@@ -10,12 +10,13 @@ use std::time::Duration;
 
 use indicatif::ProgressBar;
 
+use super::mujoco_program;
+use super::text_hash::text_hash;
 use crate::tell::tell;
 
 const REQUIREMENTS: &str = include_str!("../../../../tools/mujoco_plant/requirements.txt");
 /// All packages that they need, each with its version and the hashes of its files.
 const LOCK: &str = include_str!("../../../../tools/mujoco_plant/requirements.lock");
-const PLANT: &str = include_str!("../../../../tools/mujoco_plant/plant.py");
 /// Name of the file that exists once the environment is complete.
 const READY: &str = "ready";
 /// Oldest Python that the packages run on.
@@ -48,16 +49,10 @@ pub struct EnvironmentError(String);
 /// As [`python`].
 pub fn mujoco() -> Result<Command, EnvironmentError> {
     let mut command = python()?;
-    // Its name depends on its content: a walk with another version of it may be running.
-    let script = folder()?.join(format!("plant-{:016x}.py", fingerprint(PLANT)));
-    if fs::read_to_string(&script).ok().as_deref() != Some(PLANT) {
-        let unfinished = script.with_extension(std::process::id().to_string());
-        fs::write(&unfinished, PLANT)
-            .and_then(|()| fs::rename(&unfinished, &script))
-            .map_err(|error| EnvironmentError(format!("{}: {error}", script.display())))?;
-    }
+    let program = mujoco_program::write(&folder()?)
+        .map_err(|(path, error)| EnvironmentError(format!("{}: {error}", path.display())))?;
     // The user's Python settings must not change the simulation.
-    command.arg("-I").arg(script);
+    command.arg("-I").arg(program);
     Ok(command)
 }
 
@@ -88,7 +83,7 @@ pub fn is_installed() -> bool {
 
 /// Folder of the environment: one for each list of packages.
 fn folder() -> Result<PathBuf, EnvironmentError> {
-    Ok(cache()?.join(format!("mujoco-{:016x}", fingerprint(LOCK))))
+    Ok(cache()?.join(format!("mujoco-{:016x}", text_hash(LOCK))))
 }
 
 /// Creates the environment.
@@ -175,11 +170,6 @@ pub fn cache() -> Result<PathBuf, EnvironmentError> {
     Ok(cache.ok_or_else(|| EnvironmentError(no_home.to_owned()))?.join("halfstep"))
 }
 
-/// A number that distinguishes texts, the same everywhere: their FNV-1a hash.
-fn fingerprint(text: &str) -> u64 {
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -189,10 +179,5 @@ mod tests {
         for package in REQUIREMENTS.split_whitespace() {
             assert!(LOCK.contains(&format!("{package} \\\n    --hash=sha256:")), "{package} is not in the lock file");
         }
-    }
-
-    #[test]
-    fn folder_names_do_not_depend_on_the_compiler() {
-        assert_eq!(fingerprint("foobar"), 0x8594_4171_f739_67e8);
     }
 }

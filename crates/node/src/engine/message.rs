@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use plant::{EngineState, RobotState};
 
 /// Version of the protocol between this program and engines.
-pub(super) const PROTOCOL: u32 = 1;
+pub(super) const PROTOCOL: u32 = 2;
 /// Numbers in a setpoint: angles (rad), rates (rad/s) and feed-forward torques (N·m) of the 20 joints.
 pub(super) const SETPOINT_LEN: usize = 3 * Joint::COUNT;
 /// Numbers in a state: of the right sole position, quaternion w x y z, angular rate, velocity; of the joints angles and

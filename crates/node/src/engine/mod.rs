@@ -2,7 +2,7 @@
 //!
 //! An engine is a process that communicates through its stdin and stdout. It receives the robot as one line of JSON and
 //! then one setpoint per control period, which it answers with a state (little-endian doubles, see
-//! `tools/mujoco_plant/plant.py`). Services, clock, sensors, faults and recording stay in this process, so that both
+//! `tools/mujoco_plant/plant/protocol.py`). Services, clock, sensors, faults and recording stay here, so that both
 //! plants differ in nothing but physics, and a run in lockstep depends on nothing but its inputs.
 
 mod engine_error;
@@ -10,6 +10,8 @@ mod engine_setup;
 mod environment;
 mod external_engine;
 mod message;
+mod mujoco_program;
+mod text_hash;
 mod urdf_setup;
 
 pub use engine_error::EngineError;

@@ -1,9 +1,9 @@
 //! How an external engine makes an imported robot of its URDF: which joints are driven, which are held, where the soles
 //! are. `tools/mujoco_plant/README.md` lists the keys.
 
-use model::{Joint, Mechanism, Side, UrdfJoint, UrdfSource};
+use model::{Joint, Mechanism, Servo, Side, UrdfJoint, UrdfSource};
 use nalgebra::Vector3;
-use plant::{PlantParameters, ServoParameters};
+use plant::PlantParameters;
 use serde::Serialize;
 
 /// What an engine must know beside the URDF, in SI units.
@@ -45,12 +45,12 @@ struct HeldAngle {
 /// Servos of the held joints between feet and trunk, and of the others.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct HeldServos {
-    legs_and_waist: Servo,
-    arms: Servo,
+    legs_and_waist: HeldServo,
+    arms: HeldServo,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
-struct Servo {
+struct HeldServo {
     stiffness: f64,
     damping: f64,
 }
@@ -71,7 +71,8 @@ struct Foot {
 struct SoleRectangle {
     behind: f64,
     ahead: f64,
-    half_width: f64,
+    inside: f64,
+    outside: f64,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -96,8 +97,8 @@ impl UrdfSetup {
             joints: Joint::ALL.into_iter().filter_map(|joint| driven(mechanism, source, joint)).collect(),
             held: source.held.iter().map(|held| HeldAngle { urdf: held.name.clone(), at: held.angle }).collect(),
             servo: HeldServos {
-                legs_and_waist: servo(&parameters.servo[Mechanism::TRUNK]),
-                arms: servo(&parameters.servo[Joint::RightShoulder]),
+                legs_and_waist: servo(parameters.servo.of(&mechanism.servos.legs_and_waist)),
+                arms: servo(parameters.servo.of(&mechanism.servos.arms)),
             },
             // The joints next to the feet.
             feet: BySide {
@@ -105,7 +106,7 @@ impl UrdfSetup {
                 left: Foot { joint: name_of(source, mechanism.foot(Side::Left)) },
             },
             soles: BySide { right: right.into(), left: left.into() },
-            sole: SoleRectangle { behind: sole.behind, ahead: sole.ahead, half_width: sole.half_width },
+            sole: SoleRectangle { behind: sole.behind, ahead: sole.ahead, inside: sole.inside, outside: sole.outside },
             trunk_link: source.trunk_link.clone(),
             to_ahead: [turn.w, turn.i, turn.j, turn.k],
             friction: parameters.contact.friction,
@@ -128,8 +129,8 @@ fn driven(mechanism: &Mechanism, source: &UrdfSource, joint: Joint) -> Option<Dr
     Some(DrivenJoint { role: joint.name(), urdf: name.clone(), sign: *sign, effort, armature, range })
 }
 
-fn servo(parameters: &ServoParameters) -> Servo {
-    Servo { stiffness: parameters.stiffness, damping: parameters.damping }
+fn servo(servo: Servo) -> HeldServo {
+    HeldServo { stiffness: servo.stiffness, damping: servo.damping }
 }
 
 /// The URDF's name of a joint; empty if the source does not tell it, which engines refuse.

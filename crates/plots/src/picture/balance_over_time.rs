@@ -116,7 +116,7 @@ fn draw_soles(
                 continue;
             }
             let sole_to_world = stance[stance.len() / 2].footprint(mechanism, tree, side).sole_to_world;
-            let edges = mechanism.sole.corners().map(|corner| {
+            let edges = mechanism.sole.corners(side).map(|corner| {
                 let corner: Point = floor.point((sole_to_world * Point3::from(corner)).coords.xy()).into();
                 corner[axis]
             });

@@ -26,7 +26,7 @@ pub(super) fn draw_stick_figure(
     let draw_side = |chart: &mut Chart, side: Side, pen: Pen| {
         let (leg, arm) = (&figure.legs[side.index()], &figure.arms[side.index()]);
         let sole_to_world = kinematics.sole_to_world(mechanism, side);
-        let sole = mechanism.sole.corners().map(|corner| onto(&(sole_to_world * Point3::from(corner)).coords));
+        let sole = mechanism.sole.corners(side).map(|corner| onto(&(sole_to_world * Point3::from(corner)).coords));
         chart.line([leg.hip, leg.knee, leg.ankle].map(|point| onto(&point)), pen);
         chart.line([leg.heel, leg.ankle, leg.toe].map(|point| onto(&point)), pen);
         chart.line(sole.into_iter().chain([sole[0]]), pen);

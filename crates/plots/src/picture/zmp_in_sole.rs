@@ -72,7 +72,7 @@ mod tests {
         let (log, mechanism) = (synthetic::log(6, 0.2), synthetic::mechanism());
         let [right, left] = Side::BOTH.map(|side| chart(&log, &mechanism, side).extent());
         let sole = &mechanism.sole;
-        assert_eq!(right, [[-sole.behind, -sole.half_width], [sole.ahead, sole.half_width]]);
+        assert_eq!(right, [[-sole.behind, -sole.outside], [sole.ahead, sole.inside]]);
         assert!((left[0][1] + 0.19).abs() < 1e-9 && left[1] == right[1], "{left:?}");
     }
 }

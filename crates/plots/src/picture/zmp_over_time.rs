@@ -23,10 +23,14 @@ pub fn zmp_over_time(log: &RunLog, mechanism: &Mechanism) -> String {
     zmp_x.draw_of("measured", measured, rows, |row| row.zmp_measured.map(|zmp| zmp.x));
     zmp_x.level("sole's edges", &[-sole.behind, sole.ahead], edge);
 
-    let mut zmp_y = TimePanel::usual("ZMP y, to the left [m]", &[-sole.half_width, sole.half_width]);
+    // Both soles have the same edges where these are as far from the ankle on both sides.
+    let mut edges_aside = vec![-sole.outside, -sole.inside, sole.inside, sole.outside];
+    edges_aside.sort_by(f64::total_cmp);
+    edges_aside.dedup();
+    let mut zmp_y = TimePanel::usual("ZMP y, to the left [m]", &edges_aside);
     zmp_y.draw_of("planned, off the swaps", planned, rows, |row| on_sole(row).map(|zmp| zmp.y));
     zmp_y.draw_of("measured", measured, rows, |row| row.zmp_measured.map(|zmp| zmp.y));
-    zmp_y.level("sole's edges", &[-sole.half_width, sole.half_width], edge);
+    zmp_y.level("sole's edges", &edges_aside, edge);
 
     let mut angles = TimePanel::new("command [°]", &[-5.0, 5.0]);
     angles.draw_of("turn [°]", Pen::solid(RIGHT, 2.0), rows, |row| Some(row.turn_command.to_degrees()));

@@ -25,7 +25,7 @@ impl PlantRow {
         let kinematics = self.kinematics(tree);
         let corners = Side::BOTH.into_iter().filter(|side| count(*side)).flat_map(|side| {
             let sole_to_world = kinematics.sole_to_world(mechanism, side);
-            mechanism.sole.corners().map(|corner| (sole_to_world * Point3::from(corner)).coords.xy())
+            mechanism.sole.corners(side).map(|corner| (sole_to_world * Point3::from(corner)).coords.xy())
         });
         SupportPolygon::hull(corners)
     }

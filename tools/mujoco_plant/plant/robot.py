@@ -1,0 +1,133 @@
+"""The simulated robot of a complete MJCF model, with its drives.
+
+The drives are those of `plant::Drive`: a position servo evaluated at the end of the integration step, with the back-EMF
+compensated as far as the voltage goes. In MuJoCo's terms, with stiffness k, damping d, step h, back-EMF e:
+
+    force of the actuator = clamp(k (target - q) + d (rate - q') + feed forward - h k q' + e q', +-torque at full voltage)
+    damping of the joint  = e
+
+of which `implicitfast` takes the derivative by q', as ours does.
+"""
+
+import mujoco
+import numpy as np
+
+from .protocol import JOINTS, POWERED, SIDES, STATE
+
+
+class Robot:
+    """The simulated robot, one control period at a time."""
+
+    def __init__(self, told):
+        self.model = self._load(told)
+        self.data = mujoco.MjData(self.model)
+        self.steps = told["steps_per_period"]
+        self.step_s = told["period_s"] / self.steps
+        self.model.opt.timestep = self.step_s
+        self.pushes = told["pushes"]
+        self.periods = 0
+
+        names = [self._joint(name) for name in told["joints"]]
+        powered = [self.model.joint(name) for name, _ in names]
+        self.qpos = np.array([joint.qposadr[0] for joint in powered])
+        self.dofs = np.array([joint.dofadr[0] for joint in powered])
+        self.actuators = np.array([self.model.actuator(name).id for name, _ in names])
+        self.powered = np.array([JOINTS - len(POWERED) + POWERED.index(name) for name in told["joints"]])
+        # Where the model's joint turns the other way, -1.
+        self.signs = np.array([sign for _, sign in names])
+        self._set_drives(told)
+        self._set_state(told["start"])
+
+        self.setpoint = np.zeros((3, JOINTS))
+        self.state = np.zeros(STATE)
+        self.grounds = [self.model.sensor(f"{side}_ground").adr[0] for side in SIDES]
+
+    def _load(self, told):
+        return mujoco.MjModel.from_xml_string(told["mjcf"])
+
+    def _joint(self, name):
+        """What the model calls one of the twenty joints, and 1, or -1 if it turns the other way."""
+        return name, 1.0
+
+    def _set_drives(self, told):
+        """Turns torque motors into drives."""
+        stiffness, damping, back_emf = (np.array(told[key]) for key in ("stiffness", "damping", "back_emf"))
+        self.stiffness, self.damping = stiffness, damping
+        bias = self.model.actuator_biasprm
+        self.model.actuator_biastype[self.actuators] = mujoco.mjtBias.mjBIAS_AFFINE
+        bias[self.actuators, 1] = -stiffness
+        bias[self.actuators, 2] = -(damping + self.step_s * stiffness) + back_emf
+        self.model.dof_damping[self.dofs] += back_emf
+        self.back_emf = back_emf
+
+    def _set_state(self, start):
+        self.data.qpos[self.qpos] = self.signs * np.array(start["angles"])[self.powered]
+        self.data.qvel[self.dofs] = self.signs * np.array(start["rates"])[self.powered]
+        self._set_sole(start)
+        mujoco.mj_forward(self.model, self.data)
+
+    def _set_sole(self, start):
+        """Gives the right sole its place and velocity. Here it is what the free joint carries."""
+        data = self.data
+        rotation = np.zeros(9)
+        mujoco.mju_quat2Mat(rotation, np.array(start["orientation"]))
+        data.qpos[0:3] = start["position"]
+        data.qpos[3:7] = start["orientation"]
+        data.qvel[0:3] = start["velocity"]
+        data.qvel[3:6] = rotation.reshape(3, 3).T @ start["angular_rate"]
+
+    def advance(self):
+        """Moves on by one control period towards `setpoint`, and fills `state`."""
+        angles, rates, feed_forward = self.setpoint[:, self.powered]
+        data = self.data
+        for number in range(self.steps):
+            lead = (self.steps - 1 - number) * self.step_s
+            target = angles - lead * rates
+            data.ctrl[self.actuators] = self.signs * (self.stiffness * target + self.damping * rates + feed_forward)
+            if self.pushes:
+                self._push((self.periods * self.steps + number) * self.step_s)
+            mujoco.mj_step(self.model, data)
+        self.periods += 1
+        self._tell()
+
+    def _push(self, start):
+        """The mean force over the step, on the link's centre of mass, as `plant::Push::force_over`."""
+        data = self.data
+        data.qfrc_applied[:] = 0
+        for push in self.pushes:
+            covered = min(start + self.step_s, push["start"] + push["duration"]) - max(start, push["start"])
+            if covered > 0:
+                force = np.array(push["impulse"]) * (covered / (push["duration"] * self.step_s))
+                body, point = self._pushed(push["body"])
+                mujoco.mj_applyFT(self.model, data, force, np.zeros(3), point, body, data.qfrc_applied)
+
+    def _pushed(self, name):
+        """The body of a link, and the link's centre of mass in the world."""
+        body = self.model.body(name).id
+        return body, self.data.xipos[body]
+
+    def _tell(self):
+        data, state = self.data, self.state
+        state[13:33][self.powered] = self.signs * data.qpos[self.qpos]
+        state[33:53][self.powered] = self.signs * data.qvel[self.dofs]
+        origin = self._sole_origin()
+        for place, sensor in zip((53, 59), self.grounds):
+            force, moment, point = data.sensordata[sensor : sensor + 9].reshape(3, 3)
+            # The sensor's point and the right sole's place are both of the step's beginning.
+            state[place : place + 3] = force
+            state[place + 3 : place + 6] = moment + np.cross(point - origin, force)
+        torques = data.qfrc_actuator[self.dofs] - self.back_emf * data.qvel[self.dofs]
+        state[65:85][self.powered] = self.signs * torques
+        self._tell_sole()
+
+    def _sole_origin(self):
+        """The right sole's origin, as of the beginning of the last step."""
+        return self.data.xpos[1]
+
+    def _tell_sole(self):
+        data, state = self.data, self.state
+        rotation = np.zeros(9)
+        mujoco.mju_quat2Mat(rotation, data.qpos[3:7])
+        state[0:7] = data.qpos[0:7]
+        state[7:10] = rotation.reshape(3, 3) @ data.qvel[3:6]
+        state[10:13] = data.qvel[0:3]
