@@ -41,7 +41,8 @@ fn walked(walking: &mut Walking, seconds: f64) -> WalkVelocity {
 fn assert_near(asked: &WalkVelocity, granted: &WalkVelocity, walked: &WalkVelocity) {
     let lost = (granted.ahead - walked.ahead).hypot(granted.left - walked.left);
     let size = granted.ahead.hypot(granted.left);
-    assert!(lost < (0.1 * size).max(0.02), "{asked:?}: granted {granted:?}, walked {walked:?}");
+    // Where the robot spins, its soles slip a little.
+    assert!(lost < (0.1 * size).max(0.025), "{asked:?}: granted {granted:?}, walked {walked:?}");
     let turn = (granted.turn - walked.turn).abs();
     assert!(turn < (0.1 * granted.turn.abs()).max(2_f64.to_radians()), "{asked:?}: {granted:?}, {walked:?}");
 }

@@ -113,7 +113,15 @@ impl FootstepPlan {
 
     /// Commands a walk, steps in place or a stand.
     pub(crate) fn set_goal(&mut self, goal: Goal) {
+        let was_in_place = matches!(self.gait_state, GaitState::InPlace { .. });
         self.gait_state.set_goal(goal);
+        if let GaitState::Stopping { half_steps: half_steps @ 1, .. } = &mut self.gait_state
+            && was_in_place
+            && self.walk.sidestep().per_hip(1.0).value != 0.0
+        {
+            // The feet land apart; the next half-step brings them side by side.
+            *half_steps = 2;
+        }
         if matches!(self.gait_state, GaitState::Stopping { .. }) {
             let Command { speed, extension, .. } = self.walk.command();
             let (speed, extension) = (speed.min(1.0), extension.min(0.0));
