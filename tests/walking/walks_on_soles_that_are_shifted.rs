@@ -46,8 +46,8 @@ impl Shifted {
     }
 }
 
-/// The middle is 35 mm from either edge, the ankle 20 mm from the nearer one. Measured with seeds 1 to 3: least margins of
-/// 18 to 19 mm with the long side outward, 13 to 16 mm in turns; 7 to 9 mm with the long side inward, in turns too.
+/// The middle is 35 mm from either edge, the ankle 20 mm from the nearer one. Measured with seeds 1 to 3: least margins
+/// of 18 to 19 mm with the long side outward, 13 to 16 mm in turns; 7 to 9 mm with the long side inward, in turns too.
 #[test]
 fn walks_on_soles_that_reach_farther_to_one_side() {
     for (inside, outside, least) in [(0.02, 0.05, 0.014), (0.05, 0.02, 0.005)] {
