@@ -185,7 +185,7 @@ mod tests {
         let errors = with("gain = 3", "gain = 3\nankle_stiffness_n_m_per_rad = 5000").unwrap_err();
         assert_eq!(
             errors,
-            "f:42:31: feedback.ankle_stiffness_n_m_per_rad = 5000: must be removed: it is stiffness_n_m_per_rad of \
+            "f:43:31: feedback.ankle_stiffness_n_m_per_rad = 5000: must be removed: it is stiffness_n_m_per_rad of \
              [servo.legs_and_waist] in the robot's mechanism.toml"
         );
     }

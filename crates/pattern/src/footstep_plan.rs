@@ -60,9 +60,13 @@ impl Feet {
     /// * `aside` – how far to the left of the support ankle the point of the support sole is (m); that of the other
     ///   sole is its mirror image
     pub(crate) fn between(&self, share: f64, aside: f64) -> Vector2<f64> {
+        let (own, rest) = (Vector2::new(0.0, aside), 1.0 - share);
+        // While walking, no angle need be computed.
+        if rest <= 0.0 {
+            return own;
+        }
         let of_other = rotation_about_z(self.lift_off.yaw) * Vector3::new(0.0, -aside, 0.0);
-        let middle = Vector2::new(0.0, aside) * share + of_other.xy() * (1.0 - share);
-        self.lift_off.position.xy() * (1.0 - share) + middle
+        (self.lift_off.position + of_other).xy() * rest + own * share
     }
 }
 
