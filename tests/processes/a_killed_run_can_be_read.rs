@@ -60,9 +60,11 @@ fn a_killed_run_can_be_replayed_and_plotted() {
     let controller = command_line.start_here("controller --lockstep --out run");
     command_line.wait_for_controller();
     let plant = command_line.start_here("plant --lockstep --out run");
-    let part = command_line.folder().join("run/controller.mcap");
-    while fs::metadata(&part).map_or(0, |file| file.len()) < 4_000_000 {
-        std::thread::sleep(std::time::Duration::from_millis(5));
+    // Both have written several chunks.
+    for part in ["run/controller.mcap", "run/plant.mcap"].map(|part| command_line.folder().join(part)) {
+        while fs::metadata(&part).map_or(0, |file| file.len()) < 4_000_000 {
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
     }
     controller.kill();
     plant.kill();
