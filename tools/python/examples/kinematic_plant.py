@@ -8,7 +8,7 @@ import sys
 
 from halfstep import Measurement, Plant
 
-MECHANISM = 0x3DD21AC657A5BDD5  # `halfstep check` prints it
+MECHANISM = 0x4C79F1ADF91719FD  # `halfstep check` prints it
 WEIGHT = 73.031 * 9.80665
 
 plant = Plant(MECHANISM, *sys.argv[1:], lockstep=True)
