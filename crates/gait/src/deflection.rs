@@ -4,7 +4,7 @@
 //! it deflects while the robot stands on its right foot, to the right while it stands on the left one, and in canonical
 //! coordinates either offset is positive, away from the other foot. The half-step after it takes the offset back.
 
-use model::Side;
+use model::{JointVector, Motion, Side};
 
 use crate::{Ramp, RampKind, RampState};
 
@@ -19,9 +19,12 @@ pub enum DeflectionPhase {
     Restore,
 }
 
-/// An angle per full step, positive to the left, and its share on either leg in the present half-step.
+/// A [turn](Self::turn) or a [sidestep](Self::sidestep): an angle per full step, positive to the left, and its share on
+/// either leg in the present half-step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Deflection {
+pub struct Deflection {
+    /// One on each joint that deflects, with the sign that brings the feet apart.
+    apart: JointVector,
     /// Shape of the ramps.
     kind: RampKind,
     /// As commanded (rad).
@@ -33,29 +36,31 @@ pub(crate) struct Deflection {
 }
 
 impl Deflection {
-    /// No deflection.
-    pub(crate) fn new(kind: RampKind) -> Self {
-        Self { kind, angle: 0.0, phase: DeflectionPhase::Straight, ramp: Ramp::hold(0.0) }
+    /// No deflection yet.
+    ///
+    /// * `apart` – one on each joint that deflects, with the sign that brings the feet apart
+    pub(crate) fn new(apart: JointVector, kind: RampKind) -> Self {
+        Self { apart, kind, angle: 0.0, phase: DeflectionPhase::Straight, ramp: Ramp::hold(0.0) }
     }
 
     /// As commanded (rad per full step).
-    pub(crate) fn angle(&self) -> f64 {
+    pub fn angle(&self) -> f64 {
         self.angle
     }
 
     /// The part of the present half-step.
-    pub(crate) fn phase(&self) -> DeflectionPhase {
+    pub fn phase(&self) -> DeflectionPhase {
         self.phase
     }
 
     /// Commands another angle (rad per full step), from the next deflecting half-step on.
-    pub(crate) fn request(&mut self, angle: f64) {
+    pub fn request(&mut self, angle: f64) {
         self.angle = angle;
     }
 
     /// Number of half-steps from the present one, on `support`, until a change to `angle` takes effect: where the next
     /// deflection for it begins; for a change to zero, where the next deflection is omitted.
-    pub(crate) fn delay(&self, angle: f64, support: Side) -> u64 {
+    pub fn delay(&self, angle: f64, support: Side) -> u64 {
         let (delay, foot) = match self.phase {
             DeflectionPhase::Deflect => (2, support),
             DeflectionPhase::Straight | DeflectionPhase::Restore => (1, support.other()),
@@ -65,7 +70,7 @@ impl Deflection {
     }
 
     /// Begins a half-step on `support`. After a deflection it restores, whatever the command.
-    pub(crate) fn begin_half_step(&mut self, support: Side) {
+    pub fn begin_half_step(&mut self, support: Side) {
         use DeflectionPhase::{Deflect, Restore, Straight};
         self.phase = match self.phase {
             Deflect => Restore,
@@ -76,9 +81,19 @@ impl Deflection {
         self.ramp = Ramp::new(self.kind, self.ramp.end(), to);
     }
 
-    /// The offset of either leg at `progress` (rad), with derivatives by progress.
-    pub(crate) fn per_leg(&self, progress: f64) -> RampState {
+    /// The offset of either hip at `progress` (rad), with derivatives by progress.
+    pub fn per_hip(&self, progress: f64) -> RampState {
         self.ramp.at(progress)
+    }
+
+    /// The offsets of all joints at `progress`, canonical, at nominal speed in a half-step of `duration` (s).
+    pub fn at(&self, progress: f64, duration: f64) -> Motion {
+        let per_hip = self.per_hip(progress).by(duration.recip());
+        Motion {
+            angles: self.apart * per_hip.value,
+            rates: self.apart * per_hip.rate,
+            accelerations: self.apart * per_hip.acceleration,
+        }
     }
 }
 

@@ -24,17 +24,15 @@ mod table_csv;
 mod turn;
 mod walk;
 
-pub use deflection::DeflectionPhase;
+pub use deflection::{Deflection, DeflectionPhase};
 pub use error::WalkError;
 pub use hermite::interpolate;
 pub use parameters::{GaitParameters, Limits};
 pub use ramp::{Ramp, RampKind, RampState};
 pub use range_check::{Quantity, RangeCheck};
 pub use robot::Robot;
-pub use sidestep::Sidestep;
 pub use speed::{Speed, at_speed};
 pub use step_extension::StepExtension;
 pub use table::{NominalRow, NominalTable, TableError};
 pub use table_csv::TableFileError;
-pub use turn::Turn;
 pub use walk::{Start, Walk};

@@ -7,10 +7,9 @@
 //! outward as one goes up from the ground (ankle `−g`, hip `+g` about x), the swing leg as one goes down from the
 //! pelvis (hip `+g`, ankle `−g`). Roll keeps its sign at the support change.
 
-use model::{Joint, JointVector, Mechanism, Motion, Side};
+use model::{Joint, JointVector, Mechanism, Side};
 
-use crate::deflection::Deflection;
-use crate::{DeflectionPhase, RampKind, RampState, WalkError};
+use crate::{Deflection, RampKind, WalkError};
 
 /// Hip roll and ankle joints of each leg.
 const LEGS: [(Side, Joint, [Joint; 2]); 2] = [
@@ -18,18 +17,9 @@ const LEGS: [(Side, Joint, [Joint; 2]); 2] = [
     (Side::Left, Joint::LeftHipRoll, [Joint::LeftAnkleRoll, Joint::LeftAnklePitch]),
 ];
 
-/// The commanded sidestep and its offset in the present half-step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sidestep {
-    /// One on each hip and ankle roll, with the sign that spreads the legs.
-    apart: JointVector,
-    /// `γ`, half of it on either hip.
-    deflection: Deflection,
-}
-
-impl Sidestep {
-    /// No sidestep.
-    pub fn new(mechanism: &Mechanism, kind: RampKind) -> Self {
+impl Deflection {
+    /// No sidestep. Its angle is `γ`.
+    pub fn sidestep(mechanism: &Mechanism, kind: RampKind) -> Self {
         let mut apart = JointVector::ZERO;
         let x = |joint: Joint| mechanism.links[joint].axis.x;
         for (_, hip, [one, other]) in LEGS {
@@ -38,65 +28,24 @@ impl Sidestep {
             apart[hip] = x(hip).signum();
             apart[ankle] = -x(ankle).signum();
         }
-        Self { apart, deflection: Deflection::new(kind) }
+        Self::new(apart, kind)
     }
+}
 
-    /// Checks that offsets of the roll joints alone spread the legs and keep the soles level.
-    ///
-    /// # Errors
-    /// [`WalkError::HipRollNotForward`] and [`WalkError::NoAnkleRoll`] when a leg has no such pair of joints about x.
-    pub(crate) fn check_joints(mechanism: &Mechanism) -> Result<(), WalkError> {
-        let axis = |joint: Joint| mechanism.links[joint].axis.into_inner();
-        let rolls = |joint: Joint| axis(joint).x.abs() > 1.0 - 1e-9;
-        for (side, hip, ankle) in LEGS {
-            if !rolls(hip) {
-                return Err(WalkError::HipRollNotForward { joint: hip, axis: axis(hip) });
-            }
-            if !ankle.into_iter().any(rolls) {
-                return Err(WalkError::NoAnkleRoll { side, ankle });
-            }
+/// Checks that offsets of the roll joints alone spread the legs and keep the soles level.
+///
+/// # Errors
+/// [`WalkError::HipRollNotForward`] and [`WalkError::NoAnkleRoll`] when a leg has no such pair of joints about x.
+pub(crate) fn check_joints(mechanism: &Mechanism) -> Result<(), WalkError> {
+    let axis = |joint: Joint| mechanism.links[joint].axis.into_inner();
+    let rolls = |joint: Joint| axis(joint).x.abs() > 1.0 - 1e-9;
+    for (side, hip, ankle) in LEGS {
+        if !rolls(hip) {
+            return Err(WalkError::HipRollNotForward { joint: hip, axis: axis(hip) });
         }
-        Ok(())
-    }
-
-    /// `γ` as commanded (rad), positive to the left.
-    pub fn angle(&self) -> f64 {
-        self.deflection.angle()
-    }
-
-    /// The part of the present half-step.
-    pub fn phase(&self) -> DeflectionPhase {
-        self.deflection.phase()
-    }
-
-    /// Commands a sidestep by `angle` (rad), from the next deflecting half-step on.
-    pub fn request(&mut self, angle: f64) {
-        self.deflection.request(angle);
-    }
-
-    /// Number of half-steps from the present one, on `support`, until a change to `angle` takes effect: where the next
-    /// foot leads away; for a change to none, where it no longer does.
-    pub fn delay(&self, angle: f64, support: Side) -> u64 {
-        self.deflection.delay(angle, support)
-    }
-
-    /// Begins a half-step on `support`. After a deflection it restores, whatever the command.
-    pub fn begin_half_step(&mut self, support: Side) {
-        self.deflection.begin_half_step(support);
-    }
-
-    /// `g`, the offset of either leg at `progress` (rad), with derivatives by progress.
-    pub fn per_hip(&self, progress: f64) -> RampState {
-        self.deflection.per_leg(progress)
-    }
-
-    /// The offsets of all joints at `progress`, canonical, at nominal speed in a half-step of `duration` (s).
-    pub fn at(&self, progress: f64, duration: f64) -> Motion {
-        let per_hip = self.per_hip(progress).by(duration.recip());
-        Motion {
-            angles: self.apart * per_hip.value,
-            rates: self.apart * per_hip.rate,
-            accelerations: self.apart * per_hip.acceleration,
+        if !ankle.into_iter().any(rolls) {
+            return Err(WalkError::NoAnkleRoll { side, ankle });
         }
     }
+    Ok(())
 }

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use model::{JointVector, Mechanism, Mirror, Motion, Side};
 
 use crate::{
-    GaitParameters, Limits, NominalTable, Quantity, RangeCheck, Sidestep, Speed, StepExtension, Turn, WalkError,
-    at_speed,
+    Deflection, GaitParameters, Limits, NominalTable, Quantity, RangeCheck, Speed, StepExtension, WalkError, at_speed,
+    sidestep, turn,
 };
 use interface::{Command, GaitChange, HalfStep};
 
@@ -17,9 +17,9 @@ pub struct Walk {
     mirror: Mirror,
     limits: Limits,
     half_step: HalfStep,
-    turn: Turn,
+    turn: Deflection,
     extension: StepExtension,
-    sidestep: Sidestep,
+    sidestep: Deflection,
     speed: Speed,
 }
 
@@ -63,9 +63,9 @@ impl Walk {
             mirror,
             limits: parameters.limits,
             half_step: HalfStep::first(start.support),
-            turn: Turn::new(mechanism, parameters.ramp),
+            turn: Deflection::turn(mechanism, parameters.ramp),
             extension: StepExtension::new(mechanism, parameters.ramp),
-            sidestep: Sidestep::new(mechanism, parameters.ramp),
+            sidestep: Deflection::sidestep(mechanism, parameters.ramp),
             speed: Speed::new(start.command.speed, parameters.ramp, parameters.speed_ramp.as_secs_f64()),
         };
         walk.turn.request(start.command.turn);
@@ -82,9 +82,9 @@ impl Walk {
     /// [`WalkError::HipYawNotVertical`], [`WalkError::HipPitchNotLateral`], [`WalkError::NoAnklePitch`],
     /// [`WalkError::HipRollNotForward`], [`WalkError::NoAnkleRoll`].
     pub fn check_joints(mechanism: &Mechanism) -> Result<(), WalkError> {
-        Turn::check_joints(mechanism)?;
+        turn::check_joints(mechanism)?;
         StepExtension::check_joints(mechanism)?;
-        Sidestep::check_joints(mechanism)
+        sidestep::check_joints(mechanism)
     }
 
     /// Takes what is granted of a request and says what that is and when it takes effect, see [`Self::force`].
@@ -203,7 +203,7 @@ impl Walk {
     }
 
     /// The turn in this half-step.
-    pub fn turn(&self) -> &Turn {
+    pub fn turn(&self) -> &Deflection {
         &self.turn
     }
 
@@ -213,7 +213,7 @@ impl Walk {
     }
 
     /// The sidestep in this half-step.
-    pub fn sidestep(&self) -> &Sidestep {
+    pub fn sidestep(&self) -> &Deflection {
         &self.sidestep
     }
 

@@ -31,30 +31,26 @@ fn the_foot_on_the_side_of_the_walk_leads_and_the_other_one_follows() {
         for degrees in [-12.0, -5.0, 6.0, 15.0_f64] {
             let mut walk = walk(&mechanism, RampKind::Quintic, degrees);
             let leads = if degrees > 0.0 { Side::Left } else { Side::Right };
-            let mut moved = 0.0;
             let mut full_steps = 0;
             for _ in 0..8 {
                 let swings = walk.half_step().support.other();
                 let aside = landing(&walk, &mechanism);
-                let expected = match walk.sidestep().phase() {
+                match walk.sidestep().phase() {
                     DeflectionPhase::Deflect => {
                         assert_eq!(swings, leads);
                         full_steps += 1;
-                        moved += aside.abs() - width;
                         // Two legs of 0.856 m, a little bent, each turned by γ/2.
                         let spread = 2.0 * 0.856 * (0.5 * degrees.abs().to_radians()).sin();
                         assert!((aside.abs() - width - spread).abs() < 0.06 * spread, "{degrees}°: {aside}");
-                        None
                     }
-                    DeflectionPhase::Restore | DeflectionPhase::Straight => Some(width),
-                };
-                if let Some(expected) = expected {
-                    assert!((aside.abs() - expected).abs() < 1e-9, "{degrees}°: {aside}");
+                    DeflectionPhase::Restore | DeflectionPhase::Straight => {
+                        assert!((aside.abs() - width).abs() < 1e-9, "{degrees}°: {aside}");
+                    }
                 }
                 assert!(aside * walk.half_step().support.lateral_sign() > 0.0, "the swing foot stays on its own side");
                 while !walk.advance(0.01) {}
             }
-            assert!(full_steps >= 3 && moved > 0.0, "{degrees}°");
+            assert!(full_steps >= 3, "{degrees}°");
         }
     }
 }

@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 
 use dynamics::{Kinematics, Tree};
-use gait::{DeflectionPhase, Robot, StepExtension, Turn, WalkError, at_speed};
+use gait::{Deflection, DeflectionPhase, Robot, StepExtension, WalkError, at_speed};
 use interface::Command;
 use model::{Mechanism, Motion, Side};
 use nalgebra::{Isometry2, Vector2};
@@ -41,13 +41,13 @@ impl SteadyHalfStep {
     /// The mechanism cannot turn or extend its steps.
     pub fn steady(robot: &Robot, command: &Command, reading: Reading) -> Result<[Self; 2], WalkError> {
         let Robot { mechanism, nominal } = robot;
-        let mut turn = Turn::new(mechanism, reading.turn);
+        let mut turn = Deflection::turn(mechanism, reading.turn);
         let mut extension = StepExtension::new(mechanism, reading.extension);
         turn.request(command.turn);
         extension.request(command.extension);
 
         let tree = Tree::new(mechanism);
-        let half_step = |support: Side, turn: &Turn, extension: &StepExtension| {
+        let half_step = |support: Side, turn: &Deflection, extension: &StepExtension| {
             let motion = |row: usize| {
                 let progress = row as f64 / nominal.intervals() as f64;
                 nominal.at(progress) + turn.at(progress, nominal.duration) + extension.at(progress, nominal.duration)
