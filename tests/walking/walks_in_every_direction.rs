@@ -8,7 +8,7 @@ use dynamics::pose_seen_from;
 use halfstep_tests::random;
 use halfstep_tests::velocity::{random_velocity, to_half_circle, true_pose};
 use halfstep_tests::walking::Walking;
-use interface::{Mode, Odometry, Reply, Request, Source, Verdict, WalkPose, WalkVelocity};
+use interface::{GaitChange, Mode, Odometry, Reason, Reply, Request, Source, Verdict, WalkPose, WalkVelocity};
 use rand::Rng;
 
 fn velocity(ahead: f64, left: f64, turn_deg: f64) -> WalkVelocity {
@@ -121,6 +121,21 @@ fn no_velocity_is_a_stand() {
     let report = walking.tick(None).report;
     assert_eq!(report.mode, Mode::Standing);
     assert_eq!(report.odometry.velocity, WalkVelocity::default());
+}
+
+#[test]
+fn a_velocity_with_gait_parameters_is_refused_and_a_stop_with_them_still_stops() {
+    let mut walking = Walking::begin(8);
+    walking.walk(1.0);
+    let gait = GaitChange { speed: Some(1.1), ..GaitChange::NONE };
+    let both = Request { velocity: Some(velocity(0.2, 0.0, 0.0)), gait, ..Request::new(Source::Console) };
+    let reply = walking.ask_for(&both).reply.expect("a request is answered");
+    assert_eq!((reply.verdict, reply.reason), (Verdict::Refused, Reason::Contradictory));
+    let stop = Request { velocity: Some(WalkVelocity::default()), gait, ..Request::new(Source::Console) };
+    let reply = walking.ask_for(&stop).reply.expect("a request is answered");
+    assert_eq!((reply.verdict, reply.reason), (Verdict::Limited, Reason::Contradictory));
+    walking.walk(5.0);
+    assert_eq!(walking.tick(None).report.mode, Mode::Standing);
 }
 
 #[test]

@@ -63,5 +63,7 @@ codes! {
         NotInStand = 27 "the robot is not in a stand: put its feet side by side first",
         /// The sidestep is outside the configured range.
         SidestepLimit = 28 "the sidestep is outside the permitted range",
+        /// It asks for a velocity together with gait parameters, or with another intent than to walk.
+        Contradictory = 29 "a velocity goes with no gait parameters and with no intent but walk: ask for either",
     }
 }

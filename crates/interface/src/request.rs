@@ -54,15 +54,25 @@ impl Request {
         self.intent.map_or_else(|| self.velocity.is_some_and(|velocity| velocity.is_zero()), Intent::is_stop)
     }
 
-    /// Whether a later request of the same source leaves nothing of it in effect. A request for something else than the
-    /// later one's intent is not overridden: the robot is to do one after the other.
+    /// Whether it says in two ways how to walk, or how to walk and not to walk.
+    pub fn is_contradictory(&self) -> bool {
+        let walks = self.intent.is_none_or(|intent| intent == Intent::Walk);
+        self.velocity.is_some() && (self.gait != GaitChange::NONE || !walks)
+    }
+
+    /// Whether a later request of the same source leaves nothing of it in effect. A velocity sets all gait parameters.
+    /// A request for something else than the later one's intent is not overridden: the robot is to do one after the
+    /// other.
     pub fn is_overridden_by(&self, later: &Request) -> bool {
+        let sets = |earlier: Option<f64>, later_one: Option<f64>| {
+            earlier.is_none() || later_one.is_some() || later.velocity.is_some()
+        };
         self.source == later.source
             && self.lifetime == later.lifetime
-            && self.gait.turn.is_none_or(|_| later.gait.turn.is_some())
-            && self.gait.speed.is_none_or(|_| later.gait.speed.is_some())
-            && self.gait.extension.is_none_or(|_| later.gait.extension.is_some())
-            && self.gait.sidestep.is_none_or(|_| later.gait.sidestep.is_some())
+            && sets(self.gait.turn, later.gait.turn)
+            && sets(self.gait.speed, later.gait.speed)
+            && sets(self.gait.extension, later.gait.extension)
+            && sets(self.gait.sidestep, later.gait.sidestep)
             && self.velocity.is_none_or(|_| later.velocity.is_some())
             && self.intent.is_none_or(|intent| later.intent == Some(intent))
     }
@@ -95,6 +105,25 @@ mod tests {
         assert!(!turn.is_overridden_by(&Request { lifetime: Lifetime::Streamed, ..turn }));
         assert!(walk.is_overridden_by(&walk) && !walk.is_overridden_by(&turn));
         assert!(!asks(None, None, Some(Intent::Reset)).is_overridden_by(&walk), "first the reset, then the walk");
+    }
+
+    #[test]
+    fn a_velocity_overrides_gait_parameters_and_is_not_overridden_by_them() {
+        let velocity = Some(WalkVelocity { ahead: 0.3, ..WalkVelocity::default() });
+        let walks_at = Request { velocity, ..Request::new(Source::Script) };
+        assert!(asks(Some(0.1), Some(1.2), None).is_overridden_by(&walks_at));
+        assert!(walks_at.is_overridden_by(&walks_at));
+        assert!(!walks_at.is_overridden_by(&asks(Some(0.1), Some(1.2), None)), "the steps would stay as they are");
+    }
+
+    #[test]
+    fn a_velocity_goes_with_no_other_way_to_walk() {
+        let velocity = Some(WalkVelocity { ahead: 0.3, ..WalkVelocity::default() });
+        let with = |request: Request| Request { velocity, ..request }.is_contradictory();
+        assert!(!with(asks(None, None, None)) && !with(asks(None, None, Some(Intent::Walk))));
+        assert!(with(asks(Some(0.1), None, None)) && with(asks(None, None, Some(Intent::InPlace))));
+        assert!(with(asks(None, None, Some(Intent::Stop))));
+        assert!(!asks(Some(0.1), None, Some(Intent::Stop)).is_contradictory(), "without a velocity nothing is");
     }
 
     #[test]

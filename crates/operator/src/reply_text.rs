@@ -174,6 +174,7 @@ fn unit(reason: Reason) -> Unit {
         | Reason::FaultPersists
         | Reason::NothingToReset
         | Reason::InPlace
+        | Reason::Contradictory
         | Reason::Expired => (1.0, ""),
     };
     Unit { per_si, name }

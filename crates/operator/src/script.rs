@@ -168,6 +168,9 @@ fn timed_request(text: &str, last: &mut f64) -> Result<TimedRequest, String> {
     if has_parameters && velocity.is_some() {
         return Err(format!("a velocity and gait parameters in one line; {EXAMPLE} or {VELOCITY_EXAMPLE}"));
     }
+    if velocity.is_some() && intent.is_some_and(|intent| intent != Intent::Walk) {
+        return Err(format!("a velocity goes with no intent but \"walk\"; write e.g. {VELOCITY_EXAMPLE}"));
+    }
     if !has_parameters && velocity.is_none() && intent.is_none() {
         return Err(format!("no command in this line; {EXAMPLE}"));
     }
@@ -249,6 +252,16 @@ mod tests {
         assert!(problem(r#"{"speed":1e999}"#).starts_with("f:1: number out of range"));
         assert!(problem(r#"{"intent":"fly"}"#).contains("intent = \"fly\": must be one of \"walk\", \"stop\""));
         assert!(problem(r#"{"speed":1"#).starts_with("f:1: EOF while parsing an object"));
+    }
+
+    #[test]
+    fn a_velocity_is_read_in_metres_and_degrees_per_second_and_goes_with_nothing_else() {
+        let step = Reader::new("f").read(Ok(r#"{"vx":0.3,"wz_deg_s":180}"#)).unwrap().unwrap();
+        let expected = WalkVelocity { ahead: 0.3, left: 0.0, turn: std::f64::consts::PI };
+        assert_eq!((step.request.velocity, step.request.gait), (Some(expected), GaitChange::NONE));
+        assert!(problem(r#"{"vx":0.3,"turn_deg":5}"#).starts_with("f:1: a velocity and gait parameters in one line"));
+        assert!(problem(r#"{"vx":0.3,"intent":"stop"}"#).starts_with("f:1: a velocity goes with no intent but"));
+        assert!(Reader::new("f").read(Ok(r#"{"vx":0.3,"intent":"walk"}"#)).unwrap().is_ok());
     }
 
     #[test]

@@ -71,6 +71,7 @@ class Reason(IntEnum):
     EXPIRED = 26  # it expired before it could take effect
     NOT_IN_STAND = 27  # the robot is not in a stand: put its feet side by side first
     SIDESTEP_LIMIT = 28  # the sidestep is outside the permitted range
+    CONTRADICTORY = 29  # a velocity goes with no gait parameters and with no intent but walk: ask for either
 
 
 class Mode(IntEnum):

@@ -46,6 +46,8 @@ impl Controller {
             self.admission.reply(self.unchanged());
         } else if self.state.latched().is_some() {
             self.admission.reply(self.refused(Reason::Faulted));
+        } else if request.is_contradictory() {
+            self.admission.reply(self.refused(Reason::Contradictory));
         } else if !self.pattern.gait().can_restart() && request.intent.is_none_or(Intent::steps) {
             self.admission.reply(self.refused(Reason::CannotRestart));
         } else {
@@ -58,7 +60,10 @@ impl Controller {
         let is_hold = request.intent == Some(Intent::Hold);
         let effect_half_step = self.stop(if is_hold { Stance::Stride } else { Stance::Parallel });
         let stopped = Reply { effect_half_step, ..self.unchanged() };
-        if request.gait == GaitChange::NONE {
+        if request.is_contradictory() {
+            let (verdict, reason) = (Verdict::Limited, Reason::Contradictory);
+            self.admission.reply(Reply { verdict, reason, ..stopped });
+        } else if request.gait == GaitChange::NONE {
             self.admission.reply(stopped);
         } else if authority.is_some() {
             let (verdict, reason) = (Verdict::Limited, Reason::Outranked);
