@@ -32,7 +32,7 @@ impl FootTrajectory {
         Self {
             swing: swing_path(model, &footsteps),
             adjustment: StepAdjustment::default(),
-            hips: HipHeight::new(model),
+            hips: HipHeight::new(model, &footsteps.walk),
             footsteps,
         }
     }

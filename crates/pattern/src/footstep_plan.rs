@@ -1,8 +1,7 @@
 //! The footstep plan: which half-steps come and where they put the feet.
 
-use dynamics::sin_cos;
 use gait::{RangeCheck, Walk};
-use interface::{Command, GaitChange, Verdict};
+use interface::{Command, GaitChange, Verdict, WalkPose};
 use nalgebra::{Vector2, Vector3};
 
 use crate::footprint::{Footprint, SolePose, rotation_about_z};
@@ -193,16 +192,15 @@ impl FootstepPlan {
         model.lipm_residual.at(self.walk.half_step().progress, self.walk.speed().state().value)
     }
 
-    /// Where the support sole lands after the swing sole has landed and supports, in support coordinates of that one.
-    /// Before a stand it is where it stands.
-    pub(crate) fn landing_after(&self, model: &PatternModel) -> SolePose {
+    /// Where the swing foot lands next, and the support foot after it, in the frame of the support foot, not mirrored.
+    /// Before a stand the support foot stays where it is.
+    pub(crate) fn landings(&self, model: &PatternModel) -> [WalkPose; 2] {
+        let Feet { footprint, landing, .. } = &self.feet;
+        let next = footprint.next(landing);
         let mut ahead = self.clone();
-        for _ in 0..KNOTS_FORESEEN {
-            if ahead.advance(model) == FootstepEvent::SupportChange {
-                return ahead.feet.landing;
-            }
-        }
-        self.feet.landing.former_support()
+        let changes = (0..KNOTS_FORESEEN).any(|_| ahead.advance(model) == FootstepEvent::SupportChange);
+        let after = if changes { ahead.feet.landing } else { landing.former_support() };
+        [next, next.next(&after)].map(|landed| footprint.sees(&landed))
     }
 
     /// Where the swing sole of the present half-step lands.
@@ -229,6 +227,6 @@ impl FootstepPlan {
 /// * `yaw` – by half of which both are turned apart from the heading of the hips (rad)
 /// * `spread` – by which either leg swings away from the other one (rad)
 fn beside_support(model: &PatternModel, yaw: f64, spread: f64) -> SolePose {
-    let width = model.mechanism.foot_distance() + 2.0 * model.hip_above_ankle * sin_cos(spread).0;
+    let width = model.mechanism.foot_distance() + model.velocity.aside(spread);
     SolePose { position: rotation_about_z(yaw / 2.0) * Vector3::new(0.0, width, 0.0), yaw }
 }

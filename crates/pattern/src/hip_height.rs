@@ -1,5 +1,7 @@
 //! The height of the hips: that of the nominal half-step, lowered smoothly where a long step would stretch a leg.
 
+use dynamics::Kinematics;
+use gait::Walk;
 use nalgebra::Vector2;
 use signal::smooth_step;
 
@@ -30,9 +32,10 @@ const LATE_SWING: [f64; 6] = [0.6, 0.7, 0.8, 0.85, 0.9, 1.0];
 
 impl HipHeight {
     /// Nothing lowered.
-    pub(crate) fn new(PatternModel { mechanism, proportions, hip_above_ankle, .. }: &PatternModel) -> Self {
+    pub(crate) fn new(PatternModel { tree, mechanism, proportions, reach, .. }: &PatternModel, walk: &Walk) -> Self {
+        let end = Kinematics::fixed_base(tree, &walk.table().at(1.0).angles);
         Self {
-            above_ankle: *hip_above_ankle,
+            above_ankle: end.origin[tree.pelvis()].z + reach.hips_in_pelvis[0].z - mechanism.sole.ankle_height,
             leg_length_max: proportions.planned_leg_length_max,
             hip_offset_max: proportions.hip_offset_max,
             hip_width: mechanism.foot_distance(),

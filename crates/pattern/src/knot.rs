@@ -1,5 +1,6 @@
 //! Knots: the instants at which the motion is planned.
 
+use interface::WalkPose;
 use model::JointVector;
 use nalgebra::Vector2;
 
@@ -15,6 +16,8 @@ pub(crate) struct Knot {
     pub angles: JointVector,
     /// The support foot.
     pub footprint: Footprint,
+    /// Where the swing foot lands next, and the support foot after it, in the frame of the support foot, not mirrored.
+    pub landings: [WalkPose; 2],
     /// Half-steps since the beginning of the walk, with the progress through the present one as fraction.
     pub phase: f64,
     /// The speed factor, 0 in a stand.

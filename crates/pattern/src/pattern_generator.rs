@@ -58,6 +58,7 @@ impl PatternGenerator {
         let knot = Knot {
             angles: feet.to_physical(&model, &motion.angles),
             footprint: feet.footsteps.feet.footprint,
+            landings: feet.footsteps.landings(&model),
             phase: feet.phase(),
             speed: feet.speed(),
             vertical: Vector2::zeros(),
@@ -154,7 +155,7 @@ impl PatternGenerator {
 
     /// The present support foot.
     fn footprint(&self) -> &Footprint {
-        self.execution.playback.footprint(self.half_step().support)
+        &self.execution.playback.of_support(self.half_step().support).footprint
     }
 
     /// Knots until touchdown, if the landing can be adjusted.
@@ -257,12 +258,7 @@ impl Gait for PatternGenerator {
     }
 
     fn landings(&self) -> [WalkPose; 2] {
-        let present = self.footprint();
-        let [first, second, third] = self.plan.footprints();
-        // Just before a support change the newest knot is on the other foot already.
-        let is_ahead = first.side != present.side;
-        let coming = if is_ahead { [first, second] } else { [second, third] };
-        coming.map(|footprint| present.sees(&footprint))
+        self.execution.playback.of_support(self.half_step().support).landings
     }
 
     fn walk(&self) -> &Walk {

@@ -36,8 +36,6 @@ pub(crate) struct PatternModel {
     pub proportions: PatternProportions,
     /// The part of the nominal half-step's ZMP that the cart-table model leaves out.
     pub lipm_residual: LipmResidual,
-    /// Height of the hips over the ankles at the end of the nominal half-step (m).
-    pub hip_above_ankle: f64,
     /// The relation of velocity and gait parameters.
     pub velocity: VelocityMap,
     /// Displacement of the centre of mass per displacement of the pelvis while both feet stay (-).
@@ -56,8 +54,6 @@ impl PatternModel {
         let reach = LegReach::of(mechanism);
         // A jerk is a length per cubed time, and times grow as the root of lengths.
         let weight = JERK_WEIGHT * reach.scale().powi(3);
-        let end = Kinematics::fixed_base(&tree, &table.at(1.0).angles);
-        let hip = end.origin[tree.pelvis()].z + reach.hips_in_pelvis[0].z;
         let controller = |knots| PreviewController::new(lipm_residual.height_over_gravity, KNOT, knots, weight);
         Self {
             com_controller: controller(KNOTS_PREVIEWED),
@@ -67,7 +63,6 @@ impl PatternModel {
             legs: LegSolver::new(mechanism),
             reach,
             proportions: PatternProportions::of(mechanism),
-            hip_above_ankle: hip - mechanism.sole.ankle_height,
             velocity: VelocityMap::new(mechanism, table),
             com_per_pelvis: com_per_pelvis(mechanism, &tree, table),
             tree,

@@ -2,13 +2,13 @@
 
 use dynamics::Kinematics;
 use gait::{RangeCheck, Walk};
-use interface::{Command, GaitChange};
+use interface::{Command, GaitChange, WalkPose};
 use model::{GRAVITY, Motion};
 use nalgebra::Vector2;
 
 use crate::dynamics_filter::DynamicsFilter;
 use crate::foot_trajectory::FootTrajectory;
-use crate::footprint::{Footprint, SolePose};
+use crate::footprint::Footprint;
 use crate::footstep_plan::FootstepPlan;
 use crate::gait_state::{GaitState, Goal};
 use crate::incremental_replan::{IncrementalReplan, PlanChange};
@@ -28,8 +28,8 @@ pub(crate) struct Plan {
     /// Correction of the centre of mass for the dynamics of the whole body, along x and y of the walk frame.
     correction: [CartState; 2],
     body: WholeBodyIk,
-    /// Where the support foot of the newest knot lands after the other one, in support coordinates of that one.
-    landing_after: SolePose,
+    /// Where the feet land after the newest knot; see [`FootstepPlan::landings`].
+    landings: [WalkPose; 2],
     /// Differs whenever the plan does.
     revision: u64,
     /// Whether a leg was too short for the newest knot.
@@ -53,7 +53,7 @@ impl Plan {
             dynamics_filter,
             correction: [CartState::zeros(); 2],
             body: WholeBodyIk::new(model, &motion.angles),
-            landing_after: feet.footsteps.landing_after(model),
+            landings: feet.footsteps.landings(model),
             revision: 0,
             is_leg_out_of_reach: false,
             foot_trajectory: feet,
@@ -68,13 +68,6 @@ impl Plan {
     /// The footsteps at the newest knot.
     pub(crate) fn footsteps(&self) -> &FootstepPlan {
         &self.foot_trajectory.footsteps
-    }
-
-    /// The support foot of the newest knot, and where the feet land then.
-    pub(crate) fn footprints(&self) -> [Footprint; 3] {
-        let feet = &self.footsteps().feet;
-        let next = feet.footprint.next(&feet.landing);
-        [feet.footprint, next, next.next(&self.landing_after)]
     }
 
     /// The walk at the newest knot.
@@ -164,7 +157,7 @@ impl Plan {
         // The change in the making is made at once.
         self.replan.cancel().apply(model, &mut self.foot_trajectory);
         self.dynamics_filter.recompute(model, &self.foot_trajectory);
-        self.landing_after = self.footsteps().landing_after(model);
+        self.landings = self.footsteps().landings(model);
         self.revision += 1;
     }
 
@@ -195,7 +188,7 @@ impl Plan {
             self.dynamics_filter.clone_from(dynamics_filter);
         }
         if changes_support || is_replanned {
-            self.landing_after = self.footsteps().landing_after(model);
+            self.landings = self.footsteps().landings(model);
         }
         changes_support
     }
@@ -227,6 +220,7 @@ impl Plan {
         Knot {
             angles,
             footprint: self.footsteps().feet.footprint,
+            landings: self.landings,
             phase: self.foot_trajectory.phase(),
             speed: self.foot_trajectory.speed(),
             vertical,

@@ -5,7 +5,6 @@ use interface::HalfStep;
 use model::{Motion, Side};
 use nalgebra::Vector2;
 
-use crate::footprint::Footprint;
 use crate::knot::{KNOT, Knot};
 use crate::speed_override::SpeedOverride;
 
@@ -154,10 +153,10 @@ impl Playback {
         [from.vertical + change * self.share(), change / KNOT]
     }
 
-    /// The present support foot, which is on the side `support`.
-    pub(crate) fn footprint(&self, support: Side) -> &Footprint {
+    /// The knot next to the present whose support foot is the present one, on the side `support`.
+    pub(crate) fn of_support(&self, support: Side) -> &Knot {
         let [_, from, to, _] = &self.knots;
-        if support == from.footprint.side { &from.footprint } else { &to.footprint }
+        if support == from.footprint.side { from } else { to }
     }
 
     fn planned_speed(&self, elapsed: f64) -> f64 {

@@ -73,7 +73,8 @@ impl StepGeometry {
         self.height_at(reach) * sin_cos(spread).0
     }
 
-    /// The swing aside of either leg (rad) for soles that land further apart (m).
+    /// The swing aside of either leg (rad) for soles that land further apart (m). It calls no mathematical library of
+    /// the system, which would round differently elsewhere.
     pub(crate) fn spread(&self, aside: f64, reach: f64) -> f64 {
         let sine = (aside / self.height_at(reach)).clamp(-0.8, 0.8);
         let mut spread = sine;

@@ -67,6 +67,11 @@ impl VelocityMap {
         self.geometry.reach(0.0)
     }
 
+    /// How much further apart upright legs put the soles that swing away from each other by `spread` each (rad) (m).
+    pub(crate) fn aside(&self, spread: f64) -> f64 {
+        self.geometry.aside(spread, 0.0)
+    }
+
     /// The gait parameters of a steady walk at a velocity. They may be outside every range.
     pub fn command(&self, velocity: &WalkVelocity, limits: &Limits) -> Command {
         let speed = self.speed(velocity).clamp(limits.speed_min, limits.speed_max);

@@ -3,10 +3,10 @@
 //! A sole that bears stands still. The next one is where the measured joints put it when it takes over. Headings would
 //! drift by the slip of every turn; the inertial measurement unit tells them without.
 
-use dynamics::{Kinematics, atan2, pose_in_frame_of, pose_seen_from, sin_cos};
+use dynamics::{Kinematics, atan2, pose_seen_from, poses_in_frame_of, sin_cos};
 use interface::{Odometry, WalkPose, WalkVelocity};
-use model::{Mechanism, Side};
-use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use model::{Joint, Mechanism, Side};
+use nalgebra::{Quaternion, Vector2, Vector3};
 
 /// Time constant with which the heading of the support sole follows the measured one (s): shorter than a half-step,
 /// longer than noise.
@@ -15,13 +15,16 @@ const HEADING_TIME_CONSTANT: f64 = 0.05;
 /// Dead reckoning of the walk. Everything is in physical coordinates: nothing is mirrored.
 #[derive(Clone, Debug)]
 pub struct WalkOdometry {
+    /// The left foot, which swings in support coordinates, and the place of its sole (m).
+    swing_foot: (Joint, Vector3<f64>),
     support: Side,
     /// The support sole in the walk frame.
     sole: WalkPose,
     /// The swing sole in the frame of the support sole.
     swing_in_support: WalkPose,
-    /// Heading of the trunk in the walk frame less that of the inertial measurement unit (rad), once one was measured.
-    heading_offset: Option<f64>,
+    /// Heading of the walk frame against that of the inertial measurement unit, as a direction (-); once one was
+    /// measured.
+    heading_offset: Option<Vector2<f64>>,
     /// The pose at the last support changes, the newest first, with the time since each (s).
     changes: [Option<(WalkPose, f64)>; 3],
     /// Mean velocity over the last full step.
@@ -33,18 +36,18 @@ impl WalkOdometry {
     ///
     /// * `kinematics` – of the first posture, in support coordinates of the foot on `support`
     pub fn new(mechanism: &Mechanism, kinematics: &Kinematics, support: Side) -> Self {
-        let swing_in_support = swing_sole(mechanism, kinematics, support);
         let mut odometry = Self {
+            swing_foot: (mechanism.foot(Side::Left), mechanism.sole_in_foot(Side::Left)),
             support,
             sole: WalkPose::default(),
-            swing_in_support,
+            swing_in_support: WalkPose::default(),
             heading_offset: None,
             changes: [None; 3],
             velocity: WalkVelocity::default(),
         };
+        odometry.swing_in_support = odometry.swing_sole(kinematics);
         // The middle between the feet is the origin.
-        let middle = odometry.pose();
-        odometry.sole.heading = -middle.heading;
+        odometry.sole.heading = -odometry.pose().heading;
         let turned = odometry.pose();
         (odometry.sole.x, odometry.sole.y) = (-turned.x, -turned.y);
         odometry
@@ -56,26 +59,22 @@ impl WalkOdometry {
     /// * `kinematics` – of the joint angles, measured or else commanded, in support coordinates
     /// * `orientation` – of the trunk as the inertial measurement unit has it, if there is a valid sample
     /// * `dt` – length of the period (s)
-    pub fn update(
-        &mut self,
-        mechanism: &Mechanism,
-        support: Side,
-        kinematics: &Kinematics,
-        orientation: Option<&UnitQuaternion<f64>>,
-        dt: f64,
-    ) {
+    pub fn update(&mut self, support: Side, kinematics: &Kinematics, orientation: Option<&Quaternion<f64>>, dt: f64) {
         self.support_on(support);
-        self.swing_in_support = swing_sole(mechanism, kinematics, self.support);
+        self.swing_in_support = self.swing_sole(kinematics);
         for (_, since) in self.changes.iter_mut().flatten() {
             *since += dt;
         }
         self.forget_velocity();
         let Some(orientation) = orientation else { return };
-        let over_sole = self.support.lateral_sign() * heading_of(&kinematics.rotation[Mechanism::TRUNK]);
-        let sensed = heading_of(orientation.to_rotation_matrix().matrix());
-        let offset = *self.heading_offset.get_or_insert(self.sole.heading + over_sole - sensed);
-        let difference = wrapped(sensed + offset - over_sole - self.sole.heading);
-        self.sole.heading += difference * dt / (HEADING_TIME_CONSTANT + dt);
+        let trunk = kinematics.rotation[Mechanism::TRUNK].column(0).xy();
+        let over_sole = Vector2::new(trunk.x, support.lateral_sign() * trunk.y);
+        let (sine, cosine) = sin_cos(self.sole.heading);
+        let expected = product(&Vector2::new(cosine, sine), &over_sole);
+        let sensed = ahead(orientation);
+        let offset = *self.heading_offset.get_or_insert(quotient(&expected, &sensed));
+        let off = quotient(&product(&sensed, &offset), &expected);
+        self.sole.heading += atan2(off.y, off.x) * dt / (HEADING_TIME_CONSTANT + dt);
     }
 
     /// The foot on `support` bears from now on, if it does not yet.
@@ -85,7 +84,7 @@ impl WalkOdometry {
         }
         let pose = self.pose();
         let before = self.sole;
-        self.sole = pose_in_frame_of(&before, &self.swing_in_support);
+        [self.sole] = poses_in_frame_of(&before, &[self.swing_in_support]);
         self.swing_in_support = pose_seen_from(&self.sole, &before);
         self.support = support;
         self.changes.rotate_right(1);
@@ -108,37 +107,71 @@ impl WalkOdometry {
         }
     }
 
+    /// The swing sole in the frame of the support sole, not mirrored.
+    fn swing_sole(&self, kinematics: &Kinematics) -> WalkPose {
+        let (foot, sole_in_foot) = &self.swing_foot;
+        let (rotation, side) = (&kinematics.rotation[*foot], self.support.lateral_sign());
+        let place = kinematics.origin[*foot] + rotation * sole_in_foot;
+        WalkPose { x: place.x, y: side * place.y, heading: side * atan2(rotation.m21, rotation.m11) }
+    }
+
+    /// The middle between both soles, in the frame of the support sole.
+    fn middle(&self) -> WalkPose {
+        let WalkPose { x, y, heading } = self.swing_in_support;
+        WalkPose { x: x / 2.0, y: y / 2.0, heading: heading / 2.0 }
+    }
+
     /// The middle between both soles.
     fn pose(&self) -> WalkPose {
-        let WalkPose { x, y, heading } = self.swing_in_support;
-        pose_in_frame_of(&self.sole, &WalkPose { x: x / 2.0, y: y / 2.0, heading: heading / 2.0 })
+        let [pose] = poses_in_frame_of(&self.sole, &[self.middle()]);
+        pose
     }
 
     /// Where the walk is.
     ///
     /// * `landings` – of the swing foot and of the support foot after it, in the frame of the support sole
-    pub fn report(&self, landings: &[WalkPose; 2]) -> Odometry {
-        let landings = landings.map(|landing| pose_in_frame_of(&self.sole, &landing));
-        Odometry { pose: self.pose(), velocity: self.velocity, support_sole: self.sole, landings }
+    pub fn report(&self, [next, after]: &[WalkPose; 2]) -> Odometry {
+        let [pose, next, after] = poses_in_frame_of(&self.sole, &[self.middle(), *next, *after]);
+        Odometry { pose, velocity: self.velocity, support_sole: self.sole, landings: [next, after] }
     }
 }
 
-/// The swing sole in the frame of the support sole, not mirrored.
-fn swing_sole(mechanism: &Mechanism, kinematics: &Kinematics, support: Side) -> WalkPose {
-    let sole = kinematics.sole_to_world(mechanism, Side::Left);
-    let (place, side) = (sole.translation.vector, support.lateral_sign());
-    let heading = heading_of(sole.rotation.to_rotation_matrix().matrix());
-    WalkPose { x: place.x, y: side * place.y, heading: side * heading }
+/// The direction whose angle is the sum of those of two directions (-); all of any length.
+fn product(one: &Vector2<f64>, other: &Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(one.x * other.x - one.y * other.y, one.x * other.y + one.y * other.x)
 }
 
-/// Where the x axis of a rotated frame points (rad).
-fn heading_of(rotation: &Matrix3<f64>) -> f64 {
-    let ahead: Vector3<f64> = rotation.column(0).into();
-    atan2(ahead.y, ahead.x)
+/// The direction whose angle is that of one direction less that of another.
+fn quotient(one: &Vector2<f64>, other: &Vector2<f64>) -> Vector2<f64> {
+    product(one, &Vector2::new(other.x, -other.y))
 }
 
-/// An angle between −π and π (rad).
-fn wrapped(angle: f64) -> f64 {
-    let (sine, cosine) = sin_cos(angle);
-    atan2(sine, cosine)
+/// Where the x axis points that is rotated by a quaternion of any length, seen from above.
+fn ahead(Quaternion { coords }: &Quaternion<f64>) -> Vector2<f64> {
+    let [x, y, z, w]: [f64; 4] = (*coords).into();
+    Vector2::new(w * w + x * x - y * y - z * z, 2.0 * (x * y + w * z))
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::UnitQuaternion;
+
+    use super::*;
+
+    #[test]
+    fn a_rotated_x_axis_points_where_the_quaternion_says() {
+        for [roll, pitch, yaw] in [[0.1, -0.2, 0.5], [0.0, 0.3, -2.5], [-0.4, 0.1, 3.0]] {
+            let orientation = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+            let expected = (orientation * Vector3::x()).xy();
+            assert!((ahead(&orientation) - expected).norm() < 1e-12, "{roll} {pitch} {yaw}");
+        }
+    }
+
+    #[test]
+    fn angles_of_directions_add_and_subtract() {
+        let at = |angle: f64| Vector2::new(angle.cos(), angle.sin()) * 1.3;
+        let angle_of = |direction: Vector2<f64>| direction.y.atan2(direction.x);
+        assert!((angle_of(product(&at(0.4), &at(1.1))) - 1.5).abs() < 1e-12);
+        assert!((angle_of(quotient(&at(0.4), &at(1.1))) + 0.7).abs() < 1e-12);
+    }
 }

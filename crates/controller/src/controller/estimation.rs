@@ -2,7 +2,6 @@
 
 use interface::{Fault, Faults, Measurement};
 use model::ComState;
-use nalgebra::UnitQuaternion;
 use pattern::GaitPhase;
 use stabilizer::{BalanceState, ComPrediction, SupportFrameMeasurement, estimate_com};
 
@@ -38,7 +37,7 @@ impl Controller {
         }
         let support = self.pattern.gait().half_step().support;
         let Some((measurement, up_in_trunk)) = valid else {
-            self.odometry.update(&self.mechanism, support, self.reference.kinematics(), None, dt);
+            self.odometry.update(support, self.reference.kinematics(), None, dt);
             return None;
         };
         self.measured_angles = Some(measurement.angles);
@@ -52,8 +51,7 @@ impl Controller {
             measured.up_in_trunk = (measured.up_in_trunk + askew.push(0.0)).normalize();
         }
         self.kinematics.compute_fixed_base(&self.tree, &measured.angles);
-        let orientation = UnitQuaternion::new_normalize(measurement.orientation);
-        self.odometry.update(&self.mechanism, support, &self.kinematics, Some(&orientation), dt);
+        self.odometry.update(support, &self.kinematics, Some(&measurement.orientation), dt);
         self.contact = self.zmp_estimator.update(&measured, &self.kinematics, &self.mechanism, dt);
         if self.contact.zmp.is_none() {
             faults.insert(Fault::InTheAir);
