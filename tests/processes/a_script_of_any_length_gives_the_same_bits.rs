@@ -36,3 +36,17 @@ fn a_long_script_gives_the_same_bits_when_its_sender_is_halted() {
     let requests = |stdout: &str| stdout.lines().find(|line| line.starts_with("requests: ")).map(str::to_owned);
     assert_eq!(requests(&first.stdout), requests(&halted.stdout));
 }
+
+/// A stop overtakes requests that arrive with it, and that of a script says that none follows.
+#[test]
+fn a_script_that_ends_with_a_stop_is_not_waited_for() {
+    let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
+    for (name, stop) in [("intent", r#""intent":"stop""#), ("velocity", r#""vx":0"#)] {
+        let script = format!("{{\"t\":0.5,\"vx\":0.3}}\n{{\"t\":1.0,\"vx\":0.2}}\n{{\"t\":1.5,{stop}}}\n");
+        fs::write(command_line.folder().join("stopped.jsonl"), script).unwrap();
+        let walk = format!("walk --lockstep --for 3s --commands stopped.jsonl --out {name}");
+        let run = command_line.start(&walk).finish();
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        assert!(run.stdout.contains("requests: 3 accepted"), "{}", run.stdout);
+    }
+}

@@ -39,6 +39,8 @@ pub struct RequestQueue {
     newest_stop: Option<RequestId>,
     /// The tick from which on the next request of a script may be due, which is not here yet.
     script_from: Option<u64>,
+    /// The newest request of a script. Stops overtake others, so that older ones may arrive after it.
+    newest_of_script: Option<RequestId>,
     /// The next tick.
     tick: u64,
     /// Whether a heartbeat was taken last: another request has its turn.
@@ -91,6 +93,7 @@ impl RequestQueue {
             under_evaluation: None,
             newest_stop: None,
             script_from: None,
+            newest_of_script: None,
             tick: 0,
             took_heartbeat: false,
             in_force,
@@ -118,7 +121,11 @@ impl RequestQueue {
             Ok(request) => request,
             Err(reason) => return self.refuse(id, message.id, reason, recorder),
         };
-        if request.source == Source::Script && request.lifetime == Lifetime::Latched {
+        if request.source == Source::Script
+            && request.lifetime == Lifetime::Latched
+            && self.newest_of_script.is_none_or(|newest| newest.is_before(id))
+        {
+            self.newest_of_script = Some(id);
             self.script_from = (message.present & RequestMessage::MORE != 0).then_some(request.not_before);
         }
         let due = DueRequest { id, request };
