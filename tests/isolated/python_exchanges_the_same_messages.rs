@@ -70,6 +70,39 @@ print('stands')
     controller.end();
 }
 
+/// The controller reads the places that Python wrote: it names the one that is wrong.
+#[test]
+#[ignore = "needs Python packages: see docs/contributing.md"]
+fn a_python_program_asks_for_a_destination() {
+    let _alone = alone();
+    let mut python = python();
+    let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
+    let controller = command_line.start_here("controller");
+    let plant = command_line.start_here("plant");
+    command_line.wait_for_controller();
+    let program = "
+import math, sys
+from halfstep import Footstep, Operator, Side, Waypoint
+operator = Operator(sys.argv[1])
+for wrong in (Waypoint(math.nan, 0.0), Waypoint(0.0, math.inf), Waypoint(0.0, 0.0, math.nan)):
+    answer = operator.ask(goto=[Waypoint(1.0, 0.5, 90.0), Waypoint(2.0, 0.5), wrong], relative=True)
+    print(answer.reason.name, answer.place)
+answer = operator.ask(footsteps=[Footstep(Side.LEFT, 0.2, 0.1, 0.0), Footstep(Side.RIGHT, 0.2, math.nan, 0.0)])
+print(answer.reason.name, answer.place)
+for wrong in (dict(goto=[]), dict(goto=[Waypoint(1.0, 0.0)] * 25), dict(goto=Waypoint(1.0, 0.0), turn_deg=5),
+              dict(relative=True), dict(goto=Waypoint(1.0, 0.0), footsteps=[Footstep(Side.LEFT, 0.2, 0.1, 0.0)])):
+    try:
+        operator.ask(**wrong)
+    except ValueError:
+        print('refused')
+";
+    let told = output(python.args(["-c", program, command_line.instance()]), &command_line);
+    let expected = "NOT_FINITE 3\n".repeat(3) + "NOT_FINITE 2\n" + &"refused\n".repeat(5);
+    assert_eq!(text(&told.stdout), expected, "{}", text(&told.stderr));
+    plant.end();
+    controller.end();
+}
+
 #[test]
 #[ignore = "needs Python packages: see docs/contributing.md"]
 fn a_python_script_is_a_plant() {

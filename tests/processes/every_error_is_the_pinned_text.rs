@@ -23,6 +23,9 @@ const MISTAKES: &[&str] = &[
     "send --instance nobody turn left",
     "send --instance nobody speed",
     "send --instance nobody turn 15 speed 1.2",
+    "send --instance nobody goto 1",
+    "send --instance nobody footsteps nowhere.json",
+    "send --instance nobody footsteps bad.json",
     "stream --instance nobody bad.jsonl",
     "stream --instance nobody nowhere.jsonl",
     "plot nowhere",
@@ -73,7 +76,12 @@ fn without_running(stderr: &str) -> String {
 fn every_error_is_the_pinned_text() {
     let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
     let write = |file: &str, text: &str| fs::write(command_line.folder().join(file), text).unwrap();
-    write("bad.jsonl", "{\"t\":1,\"speed\":\"fast\"}\n{\"t\":2}\nturn 15\n{\"t\":3,\"turn_deg\":1e999}\n");
+    write(
+        "bad.jsonl",
+        "{\"t\":1,\"speed\":\"fast\"}\n{\"t\":2}\nturn 15\n{\"t\":3,\"turn_deg\":1e999}\n\
+         {\"goto\":[{\"x_m\":1,\"y_m\":2},{\"x\":1}]}\n",
+    );
+    write("bad.json", "[{\"side\":\"left\",\"x_m\":0.2,\"y_m\":0.1,\"heading_deg\":0},\n{\"side\":\"left\"}]");
     write("bad.toml", "[[push]]\nat = 1\nwith = 2\n");
     write("bad.mcap", "no recording");
     write("bad.urdf", "<robot name=\"bad\"><link name=\"trunk\"></robot>");

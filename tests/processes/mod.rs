@@ -19,6 +19,7 @@ mod a_simulation_that_becomes_unstable_is_told;
 mod a_stop_is_heard_through_any_flood;
 mod a_stream_changes_the_walk_while_it_runs;
 mod a_stream_follows_its_newest_line;
+mod a_walk_to_a_destination_is_waited_for;
 mod bad_configuration_is_refused_with_every_error;
 mod both_sides_agree_on_clock_and_start;
 mod every_error_is_the_pinned_text;

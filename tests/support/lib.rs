@@ -3,6 +3,7 @@
 #[cfg(feature = "command-line")]
 pub mod command_line;
 pub mod counting;
+pub mod destination;
 #[cfg(feature = "command-line")]
 pub mod kill_trial;
 #[cfg(feature = "command-line")]

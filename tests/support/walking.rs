@@ -7,7 +7,7 @@ use config::Config;
 use controller::{Controller, Driver, InlineWorker, Tick};
 use gait::{Limits, NominalTable, Start, Walk};
 use interface::{GaitChange, Intent, Measurement, Mode, Request, Setpoint, Source};
-use model::Mechanism;
+use model::{Mechanism, Motion};
 use pattern::PatternGenerator;
 use plant::{Plant, Truth};
 
@@ -49,6 +49,12 @@ pub fn first_range() -> Limits {
 /// `config/plant.toml`.
 pub fn plant_parameters() -> plant::PlantParameters {
     plant::PlantParameters::load(repository().join("config/plant.toml")).expect("the committed file loads")
+}
+
+/// Physical joints of the stand from which a walk is started.
+pub fn standing(mechanism: &Mechanism, parameters: &controller::Parameters) -> Motion {
+    let walk = Walk::new(nominal(), mechanism, &parameters.gait, Start::default()).expect("the nominal walks");
+    PatternGenerator::standing(mechanism, walk).physical_motion()
 }
 
 /// A controller and a plant that walk together. A clone walks on by itself, to the same bits.
@@ -102,8 +108,7 @@ impl Walking {
     /// In a stand, as with `--from-stand`.
     pub fn stand(seed: u64) -> Self {
         let (mechanism, parameters) = (crate::mechanism(), controller_parameters());
-        let walk = Walk::new(nominal(), &mechanism, &parameters.gait, Start::default()).expect("the nominal walks");
-        let start = PatternGenerator::standing(&mechanism, walk).physical_motion();
+        let start = standing(&mechanism, &parameters);
         let mut plant = Plant::new(&mechanism, &plant_parameters(), &start, PERIOD, seed);
         let measurement = plant.measure();
         let controller = Controller::standing(&mechanism, nominal(), &parameters, Start::default());

@@ -12,6 +12,8 @@ mod asked;
 mod cores;
 mod faults;
 mod files;
+#[cfg(feature = "mujoco")]
+mod goals;
 mod grid;
 #[cfg(feature = "processes")]
 mod kill;
@@ -82,6 +84,9 @@ enum Survey {
     /// Random velocities in every direction: no fall, and what is granted is walked
     #[cfg(feature = "mujoco")]
     Velocities(velocities::Options),
+    /// Random goals, or lists of footsteps: no fall, and the robot arrives where and when it was asked to
+    #[cfg(feature = "mujoco")]
+    Goals(goals::Options),
     /// Random scenarios, half of them hard, in our plant and in MuJoCo: whether both fall or walk, and how near their
     /// ZMP is
     #[cfg(feature = "mujoco")]
@@ -111,6 +116,8 @@ fn main() -> ExitCode {
         Survey::Mujoco(options) => mujoco::survey(options),
         #[cfg(feature = "mujoco")]
         Survey::Velocities(options) => velocities::survey(options),
+        #[cfg(feature = "mujoco")]
+        Survey::Goals(options) => goals::survey(options),
         #[cfg(feature = "mujoco")]
         Survey::Agreement(options) => agreement::survey(options),
         #[cfg(feature = "mujoco")]

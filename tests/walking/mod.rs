@@ -27,5 +27,6 @@ mod walks_on_soles_that_are_shifted;
 mod walks_on_uneven_ground;
 mod walks_on_what_it_does_not_know;
 mod walks_through_sensor_faults;
+mod walks_to_destinations;
 mod walks_without_falling;
 mod what_is_accepted_is_walked;

@@ -4,11 +4,15 @@
 //! Method: lockstep. What the reply grants against the true path of the middle between the feet. The long version is
 //! `survey velocities`.
 
+use controller::Tick;
 use dynamics::pose_seen_from;
 use halfstep_tests::random;
 use halfstep_tests::velocity::{random_velocity, to_half_circle, true_pose};
 use halfstep_tests::walking::Walking;
-use interface::{GaitChange, Mode, Odometry, Reason, Reply, Request, Source, Verdict, WalkPose, WalkVelocity};
+use interface::{
+    GaitChange, HalfStep, Mode, Odometry, Reason, Reply, Request, Source, Verdict, WalkPose, WalkVelocity,
+};
+use model::Side;
 use rand::Rng;
 
 fn velocity(ahead: f64, left: f64, turn_deg: f64) -> WalkVelocity {
@@ -191,5 +195,41 @@ fn the_next_landings_are_told_before_they_happen() {
     for (told, later) in next.chain(after) {
         let off = (later.x - told.x).hypot(later.y - told.y);
         assert!(off < 0.01 && (later.heading - told.heading).abs() < 0.02, "{later:?}, told {told:?}");
+    }
+}
+
+/// Walks straight on, may ask in a half-step on the right foot once its progress is `from`, and returns whether that is
+/// to be in effect in this half-step already, and where its swing foot lands.
+fn landing_after(seed: u64, asked: Option<WalkVelocity>, from: f64) -> (bool, WalkPose) {
+    let mut walking = Walking::begin(seed);
+    ask(&mut walking, velocity(0.4, 0.0, 0.0));
+    walking.walk(4.0);
+    let reached = |tick: &Tick| {
+        let HalfStep { support, progress, .. } = tick.report.half_step;
+        support == Side::Right && progress > from && progress < from + 0.05
+    };
+    let index = walking.walk_until(2.0, reached).expect("walks").report.half_step.index;
+    let is_on = asked.is_some_and(|asked| ask(&mut walking, asked).effect_half_step == index);
+    let landed = walking.walk_until(2.0, |tick| tick.report.half_step.index > index).expect("walks");
+    (is_on, landed.report.odometry.support_sole)
+}
+
+/// A request until 60 % of a half-step changes where its foot lands, if that leaves the ZMP well inside; later, the
+/// next half-step is the first.
+#[test]
+fn a_velocity_changes_the_half_step_that_is_on_if_there_is_time() {
+    let asked = [velocity(0.45, 0.0, 0.0), velocity(0.3, 0.0, 0.0), velocity(0.4, 0.0, 12.0)];
+    for (from, least, most) in [(0.2, 3, 3), (0.75, 0, 0)] {
+        let mut changed = 0;
+        for (seed, asked) in asked.into_iter().enumerate() {
+            let seed = seed as u64;
+            let (is_on, changed_landing) = landing_after(seed, Some(asked), from);
+            let (_, landing) = landing_after(seed, None, from);
+            let elsewhere = (changed_landing.x - landing.x).hypot(changed_landing.y - landing.y) > 0.01;
+            // Of a turn the sidestep that goes with it may have to wait for the other foot.
+            assert!(is_on == elsewhere || asked.turn != 0.0, "{asked:?} from {from}: {landing:?}, {changed_landing:?}");
+            changed += u32::from(elsewhere);
+        }
+        assert!((least..=most).contains(&changed), "{changed} from {from} on");
     }
 }

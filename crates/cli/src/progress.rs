@@ -1,9 +1,19 @@
 //! The progress of a walk, on a terminal.
 
 use indicatif::{ProgressBar, ProgressStyle};
-use interface::Report;
+use interface::{DestinationProgress, Report};
 use node::tell::tell;
 use runtime::Rate;
+
+/// How far it is to a destination: `goal in 1.2 m, 3 places left`.
+pub(crate) fn goal_text(progress: &DestinationProgress) -> String {
+    let DestinationProgress { places_left, distance, .. } = *progress;
+    match places_left {
+        0 => "at the goal".to_owned(),
+        1 => format!("goal in {distance:.1} m, 1 place left"),
+        _ => format!("goal in {distance:.1} m, {places_left} places left"),
+    }
+}
 
 /// A line on the terminal that shows the state of the walk; nothing if stderr is no terminal.
 pub(crate) struct Progress {
@@ -26,10 +36,11 @@ impl Progress {
     /// Shows where the walk is.
     pub(crate) fn show(&self, tick: u64, report: &Report) {
         let margin = report.margin.map_or("   –".to_owned(), |margin| format!("{:4.0}", margin * 1e3));
+        let goal = report.destination.map_or(String::new(), |progress| format!("  {}", goal_text(&progress)));
         self.bar.set_position(tick + 1);
         self.bar.set_message(format!(
             "{:6.1} s  half-step {:3}  speed {:.2}  turn {:+5.1}°  extension {:+5.1}°  sidestep {:+5.1}°  \
-             margin {margin} mm  {}",
+             margin {margin} mm  {}{goal}",
             (tick + 1) as f64 * self.rate.period_s(),
             report.half_step.index,
             report.speed,

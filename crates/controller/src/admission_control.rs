@@ -4,9 +4,11 @@ use interface::{Command, Intent, Reason, Reply, Request, Source, SteadyWalk, Ver
 use pattern::PatternGenerator;
 
 use crate::admission_job::{AdmissionJob, Decision};
+use crate::localization::Localization;
 
 /// The state of the one request that may be under evaluation.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "nothing is allocated for a request")]
 enum Pending {
     /// No request is under evaluation.
     Idle(Box<AdmissionJob>),
@@ -67,11 +69,11 @@ impl AdmissionControl {
     }
 
     /// Opens a job for a request, at once or when a cancelled one has come back.
-    pub(crate) fn open(&mut self, generator: &PatternGenerator, request: &Request) {
+    pub(crate) fn open(&mut self, generator: &PatternGenerator, localization: &Localization, request: &Request) {
         self.source = Some(request.source);
         self.pending = match std::mem::replace(&mut self.pending, Pending::InProgress) {
             Pending::Idle(mut job) => {
-                job.open(generator, request);
+                job.open(generator, localization, request);
                 Pending::Ready(job)
             }
             Pending::Cancelled(_) => Pending::Cancelled(Some(*request)),
@@ -110,10 +112,10 @@ impl AdmissionControl {
     }
 
     /// The job is done with. Opens it again for the request that waits for it, if one does.
-    pub(crate) fn finish(&mut self, mut job: Box<AdmissionJob>, generator: Option<&PatternGenerator>) {
-        self.pending = match (&self.pending, generator) {
-            (Pending::Cancelled(Some(next)), Some(generator)) => {
-                job.open(generator, next);
+    pub(crate) fn finish(&mut self, mut job: Box<AdmissionJob>, present: Option<(&PatternGenerator, &Localization)>) {
+        self.pending = match (&self.pending, present) {
+            (Pending::Cancelled(Some(next)), Some((generator, localization))) => {
+                job.open(generator, localization, next);
                 Pending::Ready(job)
             }
             _ => {
@@ -124,8 +126,13 @@ impl AdmissionControl {
     }
 
     /// The plan has changed meanwhile: the job is to be evaluated again.
-    pub(crate) fn reopen(&mut self, mut job: Box<AdmissionJob>, generator: &PatternGenerator) {
-        job.renew(generator);
+    pub(crate) fn reopen(
+        &mut self,
+        mut job: Box<AdmissionJob>,
+        generator: &PatternGenerator,
+        localization: &Localization,
+    ) {
+        job.renew(generator, localization);
         self.pending = Pending::Ready(job);
     }
 }
@@ -133,9 +140,9 @@ impl AdmissionControl {
 impl Decision {
     /// The reply that tells it, with the intent in force then.
     pub(crate) fn reply(&self, intent: Intent) -> Reply {
-        let Self { verdict, granted, effect_half_step, objection, predicted_margin } = *self;
+        let Self { verdict, granted, effect_half_step, objection, predicted_margin, place, arrival, walk } = *self;
         Reply {
-            walk: SteadyWalk::ZERO,
+            walk: walk.unwrap_or(SteadyWalk::ZERO),
             id: 0,
             verdict,
             reason: objection.map_or(Reason::None, |objection| objection.reason),
@@ -143,6 +150,8 @@ impl Decision {
             granted,
             intent: Some(intent),
             active_limit: objection.and_then(|objection| objection.active_limit),
+            place,
+            arrival,
             authority: None,
             predicted_margin,
             mode: None,
@@ -153,12 +162,21 @@ impl Decision {
     /// The decision on a change that needs no simulation.
     pub(crate) fn at_once(admission: &gait::RangeCheck) -> Self {
         let gait::RangeCheck { verdict, objection, granted, effect_half_step } = *admission;
-        Self { verdict, granted, effect_half_step, objection, predicted_margin: None }
+        Self { verdict, objection, ..Self::unchanged(granted, effect_half_step) }
     }
 
     /// The decision on a request that changes no gait parameter.
     pub(crate) fn unchanged(granted: Command, effect_half_step: u64) -> Self {
-        Self { verdict: Verdict::Accepted, granted, effect_half_step, objection: None, predicted_margin: None }
+        Self {
+            verdict: Verdict::Accepted,
+            granted,
+            effect_half_step,
+            objection: None,
+            predicted_margin: None,
+            place: None,
+            arrival: None,
+            walk: None,
+        }
     }
 }
 

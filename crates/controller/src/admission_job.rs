@@ -4,9 +4,12 @@
 //! The controller opens it with a copy of its pattern generator. The driver takes it, evaluates it (at once in
 //! lockstep, on another thread in real time) and completes it. That takes milliseconds and allocates nothing.
 
-use interface::{ActiveLimit, Command, GaitChange, Intent, Objection, Reason, Request, Verdict, WalkVelocity};
+use interface::{
+    ActiveLimit, Command, GaitChange, Intent, Objection, Places, Reason, Request, SteadyWalk, Verdict, WalkVelocity,
+};
 use pattern::{Feasibility, FeasibilityCheck, Gait, GaitState, Limit, LimitViolation, Pace, PatternGenerator};
 
+use crate::localization::Localization;
 use crate::pattern::goal_of;
 
 /// Half-steps that are simulated with all of the request in effect: one of each foot.
@@ -29,23 +32,30 @@ pub struct AdmissionJob {
     /// The pace at which the walk changes over to it.
     pace: Pace,
     intent: Option<Intent>,
-    check: FeasibilityCheck,
+    pub(crate) check: FeasibilityCheck,
     /// A copy of the controller's generator; once evaluated, how it goes on with what was granted.
-    generator: PatternGenerator,
+    pub(crate) generator: PatternGenerator,
+    /// Where the robot was then.
+    pub(crate) localization: Localization,
     /// Revision of the controller's generator when it was copied.
     revision: u64,
     /// The copy that is simulated ahead.
-    trial: PatternGenerator,
+    pub(crate) trial: PatternGenerator,
+    /// The share of the largest half-steps that a walk to way-points makes.
+    pub(crate) share: f64,
     decision: Option<Decision>,
 }
 
 /// What a request asks of the walk.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "nothing is allocated for a request")]
 enum Wanted {
     /// Other gait parameters. Less of it lies between those in force and these.
     Parameters(GaitChange),
     /// A velocity. Less of it is slower, in the same direction and on the same arc.
     Velocity(WalkVelocity),
+    /// A walk to places, in the walk frame, at a speed factor. Less of it is slower or by smaller half-steps.
+    Destination(Places, Option<f64>),
 }
 
 /// What became of a request.
@@ -61,6 +71,12 @@ pub(crate) struct Decision {
     pub objection: Option<Objection>,
     /// Least predicted ZMP margin (m), if half-steps are predicted.
     pub predicted_margin: Option<f64>,
+    /// The place that the objection is about, counted from 1.
+    pub place: Option<u32>,
+    /// Foreseen time until the robot stands at its destination (s).
+    pub arrival: Option<f64>,
+    /// The walk of the largest half-steps on the way to way-points.
+    pub walk: Option<SteadyWalk>,
 }
 
 impl AdmissionJob {
@@ -74,21 +90,29 @@ impl AdmissionJob {
             generator: generator.clone(),
             revision: generator.revision(),
             trial: generator.clone(),
+            localization: Localization::default(),
+            share: 1.0,
             decision: None,
         }
     }
 
     /// Opens it for a request.
-    pub(crate) fn open(&mut self, generator: &PatternGenerator, request: &Request) {
-        self.wanted = request.velocity.map_or(Wanted::Parameters(request.gait), Wanted::Velocity);
-        self.intent = request.intent.or(request.velocity.map(|_| Intent::Walk));
+    pub(crate) fn open(&mut self, generator: &PatternGenerator, localization: &Localization, request: &Request) {
+        self.wanted = match (request.velocity, &request.destination) {
+            (_, Some(destination)) => Wanted::Destination(localization.places(destination), request.gait.speed),
+            (Some(velocity), None) => Wanted::Velocity(velocity),
+            (None, None) => Wanted::Parameters(request.gait),
+        };
+        let walks = request.velocity.is_some() || request.destination.is_some();
+        self.intent = request.intent.or(walks.then_some(Intent::Walk));
         self.decision = None;
-        self.renew(generator);
+        self.renew(generator, localization);
     }
 
     /// Copies the generator as it is now; a decision that is there already is to be applied to that.
-    pub(crate) fn renew(&mut self, generator: &PatternGenerator) {
+    pub(crate) fn renew(&mut self, generator: &PatternGenerator, localization: &Localization) {
         self.generator.clone_from(generator);
+        self.localization = *localization;
         self.revision = generator.revision();
     }
 
@@ -97,7 +121,17 @@ impl AdmissionJob {
     pub fn evaluate(&mut self) {
         let Some(decision) = self.decision.or_else(|| self.decide()) else { return };
         let index = self.generator.half_step().index;
-        let applied = apply(&mut self.generator, &decision.granted.into(), self.intent, self.pace);
+        if let Wanted::Destination(places, _) = &self.wanted {
+            let begins = index + u64::from(self.generator.gait_state().is_stepping());
+            if decision.verdict != Verdict::Refused {
+                let sole = self.localization.support_sole;
+                self.generator.walk_to(places, &sole, decision.granted.speed, self.share);
+            }
+            self.decision = Some(Decision { effect_half_step: begins, ..decision });
+            return;
+        }
+        let granted = self.asked_of(&decision.granted.into());
+        let applied = apply(&mut self.generator, &granted, self.intent, self.pace);
         let arrives = index + u64::from(self.generator.gait_state().half_steps_to_goal());
         self.decision = Some(Decision { effect_half_step: applied.effect_half_step.max(arrives), ..decision });
     }
@@ -115,6 +149,7 @@ impl AdmissionJob {
     fn decide(&mut self) -> Option<Decision> {
         let in_force = self.generator.command();
         let velocity = match self.wanted {
+            Wanted::Destination(places, speed) => return Some(self.decide_destination(&places, speed)),
             Wanted::Velocity(velocity) => Some(velocity),
             Wanted::Parameters(_) => None,
         };
@@ -123,14 +158,20 @@ impl AdmissionJob {
             let unchanged = Decision::unchanged(in_force, self.generator.half_step().index);
             return Some(Decision { verdict: Verdict::Refused, objection, ..unchanged });
         }
-        self.pace = if velocity.is_some() { Pace::Quick } else { Pace::AtOnce };
+        self.pace = if velocity.is_some() { Pace::InStep } else { Pace::AtOnce };
         let out_of_range = velocity.and_then(|velocity| self.range_objection(&velocity));
-        let change = match self.wanted {
-            Wanted::Parameters(change) => change,
-            Wanted::Velocity(velocity) => self.generator.command_at(&self.within_range(&velocity)).into(),
+        let change = match (velocity, self.wanted) {
+            (Some(velocity), _) => self.generator.command_at(&self.within_range(&velocity)).into(),
+            (None, Wanted::Parameters(change)) => change,
+            (None, _) => GaitChange::NONE,
         };
         let (mut requested, mut feasibility) = self.simulate(&change);
-        if feasibility.violation.is_some() && self.pace == Pace::Quick {
+        if velocity.is_some() && !self.check.is_ample(&feasibility) {
+            // The half-step that is on ends as planned; the next one begins the change.
+            self.pace = Pace::Quick;
+            (requested, feasibility) = self.simulate(&change);
+        }
+        if velocity.is_some() && feasibility.violation.is_some() {
             // What cannot be reached quickly may be reached gradually.
             self.pace = Pace::Gradual;
             (requested, feasibility) = self.simulate(&change);
@@ -212,7 +253,7 @@ impl AdmissionJob {
 
     /// Simulates the coming knots with a change: as the robot will move, and as it will walk with what is in force only
     /// once it does. In a stand gait parameters wait for that, and in place the extension and a high speed do.
-    fn simulate(&mut self, change: &GaitChange) -> (Decision, Feasibility) {
+    pub(crate) fn simulate(&mut self, change: &GaitChange) -> (Decision, Feasibility) {
         let changes_something = self.wanted != Wanted::Parameters(GaitChange::NONE);
         match self.intended_gait() {
             IntendedGait::Walk => self.simulate_with(change, self.intent),
@@ -229,13 +270,24 @@ impl AdmissionJob {
     /// Simulates the coming knots with a change and an intent, until a full step was made with both.
     fn simulate_with(&mut self, change: &GaitChange, intent: Option<Intent>) -> (Decision, Feasibility) {
         self.trial.clone_from(&self.generator);
-        let decision = apply(&mut self.trial, change, intent, self.pace);
+        let asked = self.asked_of(change);
+        let decision = apply(&mut self.trial, &asked, intent, self.pace);
         let end = decision.effect_half_step + HALF_STEPS;
         let goes_on = |trial: &PatternGenerator, knots: usize| {
             let is_seen = trial.half_step().index >= end || trial.gait_state().is_standing();
             knots < if is_seen { KNOTS.start } else { KNOTS.end }
         };
         (decision, self.check.play(&mut self.trial, goes_on))
+    }
+
+    /// A request for nothing but another speed leaves the destination of the walk.
+    fn asked_of(&self, change: &GaitChange) -> GaitChange {
+        let only_speed = GaitChange { speed: change.speed, ..GaitChange::NONE };
+        let leaves = |asked: &GaitChange| GaitChange { speed: None, ..*asked } == GaitChange::NONE;
+        let keeps = self.generator.destination().is_some()
+            && self.intent.is_none()
+            && matches!(&self.wanted, Wanted::Parameters(asked) if leaves(asked));
+        if keeps { only_speed } else { *change }
     }
 
     /// What the robot does once the intent is in effect.
@@ -277,11 +329,20 @@ fn apply(generator: &mut PatternGenerator, change: &GaitChange, intent: Option<I
     {
         generator.set_goal(goal);
     }
-    Decision { verdict, granted, effect_half_step, objection, predicted_margin: None }
+    Decision {
+        verdict,
+        granted,
+        effect_half_step,
+        objection,
+        predicted_margin: None,
+        place: None,
+        arrival: None,
+        walk: None,
+    }
 }
 
 /// A violated limit in the words of a reply.
-fn objection(violation: &LimitViolation) -> Objection {
+pub(crate) fn objection(violation: &LimitViolation) -> Objection {
     let (reason, joint) = match violation.limit {
         Limit::Margin => (Reason::Margin, None),
         Limit::JointRange(joint) => (Reason::JointRange, Some(joint)),

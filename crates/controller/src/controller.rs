@@ -1,5 +1,6 @@
 //! The controller: one tick, read from top to bottom.
 
+mod destination;
 mod estimation;
 mod requests;
 mod robot_posture;
@@ -10,6 +11,7 @@ use dynamics::{Kinematics, PlannedContact, ReferenceDynamics, Tree};
 use gait::{NominalTable, Start, Walk, WalkError};
 use interface::{
     AddedAngles, Fault, Faults, Intent, LatchedFault, Measurement, Mode, Reason, Rejection, Reply, Report, Setpoint,
+    SteadyWalk,
 };
 use model::{ComState, JointVector, Mechanism, Motion, Side};
 use nalgebra::Vector2;
@@ -187,6 +189,8 @@ impl Controller {
             faults.insert(Fault::OutOfReach);
         }
 
+        self.follow_destination();
+
         // What do the joints permit?
         let setpoint = self.limit(&commanded, dt, &mut faults);
         if faults.contains(Fault::SetpointNotFinite) {
@@ -226,7 +230,8 @@ impl Controller {
 
     /// A reply with the state of the controller as it leaves.
     fn complete_reply(&self, reply: Reply) -> Reply {
-        let walk = self.velocity_map.steady_walk(&reply.granted);
+        let steady = || self.velocity_map.steady_walk(&reply.granted);
+        let walk = if reply.walk == SteadyWalk::ZERO { steady() } else { reply.walk };
         Reply { mode: Some(self.mode()), latched: self.latched, walk, ..reply }
     }
 
@@ -343,6 +348,7 @@ impl Controller {
             extension: gait.command().extension,
             sidestep: gait.command().sidestep,
             odometry: self.odometry.report(&gait.landings()),
+            destination: self.destination_progress(),
             zmp_in_support: self.contact.zmp.filter(|_| is_same_foot),
             zmp_planned: has_plan.then_some(self.reference.zmp),
             margin: Some(self.contact.margin).filter(|margin| margin.is_finite()),

@@ -102,6 +102,7 @@ mod tests {
                 com_planned: Some(com),
                 com_measured: None,
                 odometry: Odometry::default(),
+                destination: None,
                 faults: Faults::default(),
             })
         };

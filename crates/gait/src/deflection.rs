@@ -81,6 +81,32 @@ impl Deflection {
         self.ramp = Ramp::new(self.kind, self.ramp.end(), to);
     }
 
+    /// Lets the present half-step on `support` end as the angle commanded last asks for, from a progress on. Returns
+    /// whether that angle is in effect in it; a half-step that restores goes on restoring.
+    pub(crate) fn redirect(&mut self, support: Side, progress: f64) -> bool {
+        use DeflectionPhase::{Deflect, Restore, Straight};
+        let leads = deflecting_support(self.angle) == Some(support);
+        if self.phase != Restore {
+            let to = if leads { 0.5 * self.angle.abs() } else { 0.0 };
+            self.phase = if leads { Deflect } else { Straight };
+            self.ramp = self.ramp.redirected(self.kind, progress, to);
+        }
+        self.phase == Deflect || self.angle == 0.0
+    }
+
+    /// Ends the present half-step with another offset of either hip than commanded (rad), from where it began. The
+    /// next half-step restores.
+    pub(crate) fn aim(&mut self, per_hip: f64) {
+        use DeflectionPhase::{Deflect, Restore, Straight};
+        let began = self.ramp.at(0.0);
+        self.phase = match per_hip {
+            0.0 if began.value == 0.0 => Straight,
+            0.0 => Restore,
+            _ => Deflect,
+        };
+        self.ramp = Ramp::new(self.kind, began, per_hip);
+    }
+
     /// The offset of either hip at `progress` (rad), with derivatives by progress.
     pub fn per_hip(&self, progress: f64) -> RampState {
         self.ramp.at(progress)

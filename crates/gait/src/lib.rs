@@ -35,4 +35,4 @@ pub use speed::{Speed, at_speed};
 pub use step_extension::StepExtension;
 pub use table::{NominalRow, NominalTable, TableError};
 pub use table_csv::TableFileError;
-pub use walk::{Start, Walk};
+pub use walk::{LegOffsets, Start, Walk};

@@ -81,6 +81,16 @@ impl StepExtension {
         self.ramp = Ramp::new(self.kind, self.ramp.end().negated(), 0.5 * self.angle);
     }
 
+    /// Lets the present half-step end with the extension commanded last, from a progress on.
+    pub(crate) fn redirect(&mut self, progress: f64) {
+        self.ramp = self.ramp.redirected(self.kind, progress, 0.5 * self.angle);
+    }
+
+    /// Ends the present half-step with another offset of either hip than commanded (rad), from where it began.
+    pub(crate) fn aim(&mut self, per_hip: f64) {
+        self.ramp = Ramp::new(self.kind, self.ramp.at(0.0), per_hip);
+    }
+
     /// `e`, the offset of either hip at `progress` (rad), with derivatives by progress.
     pub fn per_hip(&self, progress: f64) -> RampState {
         self.ramp.at(progress)

@@ -33,6 +33,17 @@ pub struct Start {
     pub command: Command,
 }
 
+/// Offsets of either leg at the end of a half-step (rad): they say where the swing foot lands.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LegOffsets {
+    /// Rotation of either leg about itself, which turns the feet apart.
+    pub turn: f64,
+    /// Swing of either leg ahead.
+    pub reach: f64,
+    /// Swing of either leg away from the other one.
+    pub spread: f64,
+}
+
 impl Default for Start {
     /// The nominal walk, beginning on the right foot.
     fn default() -> Self {
@@ -119,6 +130,28 @@ impl Walk {
         self.turn.request(command.turn);
         self.extension.request(command.extension);
         self.sidestep.request(command.sidestep);
+        self.speed.request(command.speed);
+        effect_half_step
+    }
+
+    /// Puts `command` into force as [`force`](Self::force) does, and lets the half-step that is on end by it already as
+    /// far as its swing foot can lead. Returns the half-step from which on all of it is in effect.
+    ///
+    /// * `before` – the command by which the half-step has begun
+    pub fn redirect(&mut self, command: &Command, before: &Command) -> u64 {
+        let HalfStep { index, support, progress } = self.half_step;
+        let mut effect_half_step = index;
+        for (deflection, angle, before) in
+            [(&mut self.turn, command.turn, before.turn), (&mut self.sidestep, command.sidestep, before.sidestep)]
+        {
+            let delay = deflection.delay(angle, support);
+            deflection.request(angle);
+            if !deflection.redirect(support, progress) && angle != before {
+                effect_half_step = effect_half_step.max(index + delay);
+            }
+        }
+        self.extension.request(command.extension);
+        self.extension.redirect(progress);
         self.speed.request(command.speed);
         effect_half_step
     }
@@ -231,6 +264,14 @@ impl Walk {
     pub fn restart(&mut self, command: &Command) {
         self.force(command);
         self.begin_half_step();
+    }
+
+    /// Lets the present half-step end with given offsets instead of the command's, from where it began. The next
+    /// half-step follows the command again, unless it is aimed, too.
+    pub fn aim(&mut self, at: &LegOffsets) {
+        self.turn.aim(at.turn);
+        self.extension.aim(at.reach);
+        self.sidestep.aim(at.spread);
     }
 
     fn begin_half_step(&mut self) {

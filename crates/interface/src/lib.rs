@@ -15,6 +15,7 @@
 
 pub mod code;
 mod command;
+mod destination;
 mod fault;
 mod half_step;
 mod intent;
@@ -33,6 +34,9 @@ mod verdict;
 mod walk_pose;
 
 pub use command::{Command, GaitChange};
+pub use destination::{
+    Destination, DestinationProgress, Footstep, PLACES_MAX, PlaceFrame, PlaceList, Places, Waypoint,
+};
 pub use fault::{Fault, Faults, LatchedFault};
 pub use half_step::HalfStep;
 pub use intent::Intent;

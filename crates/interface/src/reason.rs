@@ -63,7 +63,23 @@ codes! {
         NotInStand = 27 "the robot is not in a stand: put its feet side by side first",
         /// The sidestep is outside the configured range.
         SidestepLimit = 28 "the sidestep is outside the permitted range",
-        /// It asks for a velocity together with gait parameters, or with another intent than to walk.
-        Contradictory = 29 "a velocity goes with no gait parameters and with no intent but walk: ask for either",
+        /// It asks for a velocity or a destination together with gait parameters, with another intent than to walk, or
+        /// with each other.
+        Contradictory = 29 "ask for one: gait parameters, a velocity or a destination; with a velocity or a \
+                            destination goes no intent but walk",
+        /// A destination has more than [`PLACES_MAX`](crate::PLACES_MAX) places.
+        TooManyPlaces = 30 "more way-points or footsteps than can be given at a time",
+        /// Two footsteps in turn are of the same foot.
+        SameFoot = 31 "the same foot cannot step twice: right and left take turns",
+        /// A footstep is out of the range of steps (m).
+        StepTooFar = 32 "the foot would land too far from the other one",
+        /// A foot would land on the wrong side of the other one (m).
+        FeetCross = 33 "the feet would cross",
+        /// A footstep would turn the foot too far against the other one (rad).
+        StepTurn = 34 "the foot would be turned too far against the other one",
+        /// The gait without compensation plans no footsteps.
+        NoDestination = 35 "the uncompensated gait walks to no destination",
+        /// A place is farther away than anyone walks (m).
+        TooFar = 36 "it is farther away than is permitted",
     }
 }

@@ -17,12 +17,17 @@ pub struct Reply {
     pub effect_half_step: u64,
     /// Gait parameters in force from then on; after a refusal, those in force already.
     pub granted: Command,
-    /// What these gait parameters come to once the walk is steady.
+    /// What these gait parameters come to once the walk is steady; on the way to way-points the largest steps and
+    /// speeds, each alone.
     pub walk: SteadyWalk,
     /// The intent in force from then on, if the controller has received one.
     pub intent: Option<Intent>,
     /// The limit that restricted the request, if the reason is a limit.
     pub active_limit: Option<ActiveLimit>,
+    /// The way-point or footstep that the reason is about, counted from 1.
+    pub place: Option<u32>,
+    /// Foreseen time until the robot stands at its destination (s); `None` without one, and if it is far away.
+    pub arrival: Option<f64>,
     /// The source that outranks the request's, if the reason is [`Reason::Outranked`].
     pub authority: Option<ControlAuthority>,
     /// Least predicted distance of the ZMP to the edge of the support polygon (m), negative outside; `None` if nothing
@@ -77,6 +82,8 @@ impl Reply {
             walk: SteadyWalk::ZERO,
             intent,
             active_limit: None,
+            place: None,
+            arrival: None,
             authority: None,
             predicted_margin: None,
             mode: None,

@@ -3,7 +3,7 @@
 use model::ComState;
 use nalgebra::Vector2;
 
-use crate::{Faults, HalfStep, Mode, Odometry};
+use crate::{DestinationProgress, Faults, HalfStep, Mode, Odometry};
 
 /// The state of the controller after a control period. Points, vectors and rotations are expressed in the support
 /// foot's sole frame, but for the odometry.
@@ -39,6 +39,8 @@ pub struct Report {
     pub com_measured: Option<ComState>,
     /// Where the robot is, as estimated.
     pub odometry: Odometry,
+    /// How far the walk to a destination has come; `None` if there is none, or another request took its place.
+    pub destination: Option<DestinationProgress>,
     /// What is wrong.
     pub faults: Faults,
 }

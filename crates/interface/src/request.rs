@@ -1,6 +1,6 @@
 //! A request of an operator.
 
-use crate::{GaitChange, Intent, Lifetime, Source, WalkVelocity};
+use crate::{Destination, GaitChange, Intent, Lifetime, Source, WalkVelocity};
 
 /// A request of an operator. It is atomic: it takes effect as a whole or not at all. The one exception is a stop, which
 /// takes effect before the gait parameters of the same request are evaluated. From a source that is outranked, only the
@@ -15,6 +15,9 @@ pub struct Request {
     pub gait: GaitChange,
     /// The velocity to walk at, instead of gait parameters; zero is a stand. It starts the walk.
     pub velocity: Option<WalkVelocity>,
+    /// Where to walk to, instead of how. A speed in `gait` holds for the way there. Whatever else moves the robot
+    /// cancels it: other gait parameters, a velocity, an intent, the end of a stream.
+    pub destination: Option<Destination>,
     /// What the robot is to do; `None` leaves the intent as it is.
     pub intent: Option<Intent>,
     /// How long it stays in effect.
@@ -36,6 +39,7 @@ impl Request {
             source,
             gait: GaitChange::NONE,
             velocity: None,
+            destination: None,
             intent: None,
             lifetime: Lifetime::Latched,
             timeout: None,
@@ -46,7 +50,7 @@ impl Request {
 
     /// Whether it changes nothing: a heartbeat, or the end of a stream.
     pub fn is_empty(&self) -> bool {
-        self.gait == GaitChange::NONE && self.velocity.is_none() && self.intent.is_none()
+        self.gait == GaitChange::NONE && self.velocity.is_none() && self.destination.is_none() && self.intent.is_none()
     }
 
     /// Whether it ends the walk, which is granted to every source: by its intent, or by no velocity.
@@ -57,7 +61,21 @@ impl Request {
     /// Whether it says in two ways how to walk, or how to walk and not to walk.
     pub fn is_contradictory(&self) -> bool {
         let walks = self.intent.is_none_or(|intent| intent == Intent::Walk);
-        self.velocity.is_some() && (self.gait != GaitChange::NONE || !walks)
+        match (self.velocity, self.destination) {
+            (None, None) => false,
+            (Some(_), None) => self.gait != GaitChange::NONE || !walks,
+            (None, Some(_)) => GaitChange { speed: None, ..self.gait } != GaitChange::NONE || !walks,
+            (Some(_), Some(_)) => true,
+        }
+    }
+
+    /// Whether it moves the robot otherwise than before, which cancels a destination: a mere change of speed does not.
+    pub fn moves(&self) -> bool {
+        let GaitChange { turn, extension, sidestep, speed: _ } = self.gait;
+        [turn, extension, sidestep].iter().any(Option::is_some)
+            || self.velocity.is_some()
+            || self.destination.is_some()
+            || self.intent.is_some()
     }
 
     /// Whether a later request of the same source leaves nothing of it in effect. A velocity sets all gait parameters.
@@ -73,7 +91,8 @@ impl Request {
             && sets(self.gait.speed, later.gait.speed)
             && sets(self.gait.extension, later.gait.extension)
             && sets(self.gait.sidestep, later.gait.sidestep)
-            && self.velocity.is_none_or(|_| later.velocity.is_some())
+            && self.velocity.is_none_or(|_| later.velocity.is_some() || later.destination.is_some())
+            && self.destination.is_none_or(|_| later.moves())
             && self.intent.is_none_or(|intent| later.intent == Some(intent))
     }
 
@@ -90,6 +109,8 @@ impl Request {
 
 #[cfg(test)]
 mod tests {
+    use crate::{PlaceFrame, PlaceList, Places, Waypoint};
+
     use super::*;
 
     fn asks(turn: Option<f64>, speed: Option<f64>, intent: Option<Intent>) -> Request {
@@ -124,6 +145,24 @@ mod tests {
         assert!(with(asks(Some(0.1), None, None)) && with(asks(None, None, Some(Intent::InPlace))));
         assert!(with(asks(None, None, Some(Intent::Stop))));
         assert!(!asks(Some(0.1), None, Some(Intent::Stop)).is_contradictory(), "without a velocity nothing is");
+    }
+
+    #[test]
+    fn a_destination_goes_with_a_speed_and_is_cancelled_by_whatever_moves_the_robot() {
+        let waypoint = Waypoint { x: 1.0, y: 0.0, heading: None };
+        let places = Places::Waypoints(PlaceList::new(&[waypoint]).unwrap());
+        let destination = Some(Destination { frame: PlaceFrame::Walk, places });
+        let with = |request: Request| Request { destination, ..request };
+        let goes = with(asks(None, None, None));
+        let velocity = Some(WalkVelocity { ahead: 0.3, ..WalkVelocity::default() });
+        assert!(!goes.is_empty() && !goes.is_contradictory());
+        assert!(!with(asks(None, Some(1.2), Some(Intent::Walk))).is_contradictory());
+        assert!(with(asks(Some(0.1), None, None)).is_contradictory());
+        assert!(with(asks(None, None, Some(Intent::Stop))).is_contradictory());
+        assert!(Request { velocity, ..goes }.is_contradictory());
+        assert!(goes.is_overridden_by(&asks(Some(0.1), None, None)) && goes.is_overridden_by(&goes));
+        assert!(!goes.is_overridden_by(&asks(None, Some(1.2), None)), "it goes there at that speed");
+        assert!(Request { velocity, ..asks(None, None, None) }.is_overridden_by(&goes));
     }
 
     #[test]

@@ -63,6 +63,7 @@ mod tests {
             extension: 0.0,
             sidestep: 0.0,
             odometry: Odometry::default(),
+            destination: None,
             zmp_in_support: None,
             zmp_planned: None,
             margin: None,

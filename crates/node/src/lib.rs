@@ -28,5 +28,6 @@ pub mod request_queue;
 pub mod summary;
 pub mod tell;
 pub mod timing;
+mod valid_request;
 
 pub use error::NodeError;

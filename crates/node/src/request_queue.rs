@@ -10,11 +10,12 @@ use std::time::Duration;
 use controller::Tick;
 use interface::{Command, Intent, LatchedFault, Lifetime, Mode, Reason, Reply, Request, Source, Verdict};
 use serde::{Deserialize, Serialize};
-use wire::{MAX_UNANSWERED, MessageFault, ReplyMessage, RequestMessage};
+use wire::{MAX_UNANSWERED, ReplyMessage, RequestMessage};
 
 use crate::entry::ControllerEvent;
 use crate::recorder::Recorder;
 use crate::request_bridge::{IncomingRequest, RequestBridge, RequestId};
+use crate::valid_request::{Invalid, valid};
 
 /// Most requests that can wait for their tick, beside stops and heartbeats.
 pub const CAPACITY: usize = 256;
@@ -119,7 +120,11 @@ impl RequestQueue {
     fn schedule(&mut self, IncomingRequest { id, message }: IncomingRequest, recorder: &mut Recorder<ControllerEvent>) {
         let request = match valid(&message) {
             Ok(request) => request,
-            Err(reason) => return self.refuse(id, message.id, reason, recorder),
+            Err(Invalid { reason, place }) => {
+                self.tally.count(Verdict::Refused);
+                let refusal = Reply { place, ..self.in_force.refused(message.id, reason) };
+                return self.reply(id, &refusal, recorder);
+            }
         };
         if request.source == Source::Script
             && request.lifetime == Lifetime::Latched
@@ -341,22 +346,6 @@ impl InForce {
     }
 }
 
-/// The request of a message.
-///
-/// # Errors
-/// Why no controller of this version can grant it.
-fn valid(message: &RequestMessage) -> Result<Request, Reason> {
-    let request = message.checked().map_err(|fault| match fault {
-        MessageFault::NotFinite { .. } => Reason::NotFinite,
-        _ => Reason::UnknownCode,
-    })?;
-    if request.source == Source::ControlLoop {
-        return Err(Reason::UnknownCode);
-    }
-    // In a stream an empty request is a heartbeat or the end; by itself it is a mistake.
-    if request.is_empty() && request.lifetime == Lifetime::Latched { Err(Reason::Empty) } else { Ok(request) }
-}
-
 impl IncomingRequest {
     fn event(&self) -> ControllerEvent {
         ControllerEvent::Request(self.id.number(), self.message)
@@ -370,36 +359,5 @@ impl Tally {
             Verdict::Limited => self.limited += 1,
             Verdict::Refused => self.refused += 1,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use interface::{GaitChange, Source};
-
-    use super::*;
-
-    #[test]
-    fn an_empty_request_is_refused_unless_it_belongs_to_a_stream() {
-        let empty = Request::new(Source::Console);
-        assert_eq!(valid(&(&empty).into()), Err(Reason::Empty));
-        for lifetime in [Lifetime::Streamed, Lifetime::Release] {
-            let request = Request { lifetime, ..empty };
-            assert_eq!(valid(&(&request).into()), Ok(request));
-        }
-    }
-
-    #[test]
-    fn no_operator_may_claim_to_be_the_control_loop() {
-        let request = Request { intent: Some(Intent::Hold), ..Request::new(Source::ControlLoop) };
-        assert_eq!(valid(&(&request).into()), Err(Reason::UnknownCode));
-    }
-
-    #[test]
-    fn a_request_that_is_not_finite_is_refused() {
-        let gait = GaitChange { speed: Some(1.0), ..GaitChange::NONE };
-        let request = Request { gait, ..Request::new(Source::Script) };
-        let message = RequestMessage { speed: f64::NAN, ..RequestMessage::from(&request) };
-        assert_eq!(valid(&message), Err(Reason::NotFinite));
     }
 }

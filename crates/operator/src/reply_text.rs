@@ -3,6 +3,9 @@
 use interface::{ActiveLimit, ControlAuthority, Reason, Reply, Request, SteadyWalk, Verdict};
 use serde::Serialize;
 
+use crate::destination_text::{destination_text, metres, place_text};
+use crate::limit_unit::LimitUnit;
+
 /// A reply as JSON; angles in degrees.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ReplyJson {
@@ -29,6 +32,12 @@ pub struct ReplyJson {
     intent: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     bound: Option<BoundInJson>,
+    /// The way-point or footstep that the reason is about, counted from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    place: Option<u32>,
+    /// Foreseen time until the robot stands at its destination (s).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    arrival_s: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     in_command: Option<InCommandInJson>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -87,10 +96,12 @@ impl From<&Reply> for ReplyJson {
             wz_deg_s: to_micro(reply.walk.velocity.turn.to_degrees()),
             intent: reply.intent.map(|intent| intent.text()),
             bound: reply.active_limit.map(|bound| {
-                let Unit { per_si, name } = unit(reply.reason);
+                let LimitUnit { per_si, name } = LimitUnit::of(reply.reason);
                 let [value, limit] = [bound.value, bound.limit].map(|number| rounded(number * per_si));
                 BoundInJson { joint: bound.joint.map(|joint| joint.number()), value, limit, unit: name.trim_start() }
             }),
+            place: reply.place,
+            arrival_s: reply.arrival.map(to_micro),
             in_command: reply.authority.map(|in_command| InCommandInJson {
                 source: in_command.source.text(),
                 remaining_s: rounded(in_command.remaining),
@@ -119,8 +130,12 @@ pub fn reply_text(request: &Request, reply: &Reply) -> String {
     }
 }
 
-/// Why a request was not granted as requested, with numbers where there are any.
+/// Why a request was not granted as requested, with its place and with numbers where there are any.
 fn objection_text(request: &Request, reply: &Reply) -> String {
+    place_text(request, reply) + &problem_text(request, reply)
+}
+
+fn problem_text(request: &Request, reply: &Reply) -> String {
     if let Some(ControlAuthority { source, remaining }) = reply.authority {
         let requester = request.source;
         return format!(
@@ -131,53 +146,10 @@ fn objection_text(request: &Request, reply: &Reply) -> String {
         return format!("{} ({latched})", reply.reason);
     }
     let Some(ActiveLimit { joint, value, limit }) = reply.active_limit else { return reply.reason.to_string() };
-    let Unit { per_si, name } = unit(reply.reason);
+    let LimitUnit { per_si, name } = LimitUnit::of(reply.reason);
     let [value, limit] = [value, limit].map(|number| (number * per_si * 1e3).round() / 1e3 + 0.0);
     let joint = joint.map(|joint| format!("joint {} ({}) ", joint.number(), joint.name())).unwrap_or_default();
     format!("{} ({joint}{value}{name}, limit {limit}{name})", reply.reason)
-}
-
-/// The unit in which users read the limit of a reason.
-struct Unit {
-    /// How many of this unit one SI unit is.
-    per_si: f64,
-    /// The unit's name as it follows a number.
-    name: &'static str,
-}
-
-fn unit(reason: Reason) -> Unit {
-    const DEGREES: f64 = 180.0 / std::f64::consts::PI;
-    let (per_si, name) = match reason {
-        Reason::TurnLimit
-        | Reason::ExtensionLimit
-        | Reason::SidestepLimit
-        | Reason::JointRange
-        | Reason::NotInStand => (DEGREES, "°"),
-        Reason::JointRate => (DEGREES, " °/s"),
-        Reason::Torque | Reason::YawTorque => (1.0, " N·m"),
-        Reason::Voltage => (1.0, " V"),
-        Reason::Margin | Reason::SoleClearance | Reason::LegReach => (1e3, " mm"),
-        // Speed and friction are factors; the others have no limit.
-        Reason::SpeedLimit
-        | Reason::Friction
-        | Reason::None
-        | Reason::NotFinite
-        | Reason::CannotRestart
-        | Reason::QueueFull
-        | Reason::UnknownCode
-        | Reason::Empty
-        | Reason::ShuttingDown
-        | Reason::Outranked
-        | Reason::Superseded
-        | Reason::Fallen
-        | Reason::Faulted
-        | Reason::FaultPersists
-        | Reason::NothingToReset
-        | Reason::InPlace
-        | Reason::Contradictory
-        | Reason::Expired => (1.0, ""),
-    };
-    Unit { per_si, name }
 }
 
 /// The granted values of everything that was requested.
@@ -196,6 +168,7 @@ fn granted_text(request: &Request, reply: &Reply) -> String {
             .sidestep
             .map(|_| format!("{} ({} aside)", angle("sidestep", granted.sidestep), metres(reply.walk.step_aside))),
         request.velocity.map(|_| velocity_text(reply)),
+        request.destination.map(|destination| destination_text(&destination, reply)),
         request.intent.map(|intent| intent.text().to_owned()),
     ];
     parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
@@ -213,10 +186,6 @@ fn velocity_text(reply: &Reply) -> String {
         metres(*step_ahead),
         metres(*step_aside)
     )
-}
-
-fn metres(length: f64) -> String {
-    format!("{:.3} m", (length * 1e3).round() / 1e3 + 0.0)
 }
 
 /// A number rounded to a millionth.
@@ -280,6 +249,11 @@ mod tests {
         assert_eq!(json["in_command"], serde_json::json!({"source": "teleop", "remaining_s": 0.4201}));
     }
 
+    fn is_about_a_place(reason: Reason) -> bool {
+        use Reason::{FeetCross, SameFoot, StepTooFar, StepTurn, TooFar};
+        [FeetCross, SameFoot, StepTooFar, StepTurn, TooFar].contains(&reason)
+    }
+
     /// Every reason with the numbers that replies of the controller have with it.
     #[test]
     fn every_reply_is_the_pinned_text() {
@@ -299,7 +273,11 @@ mod tests {
                 | Reason::SoleClearance
                 | Reason::LegReach
                 | Reason::Friction
-                | Reason::YawTorque => Some(ActiveLimit { joint: None, value: 0.5, limit: 0.4 }),
+                | Reason::YawTorque
+                | Reason::StepTooFar
+                | Reason::FeetCross
+                | Reason::StepTurn
+                | Reason::TooFar => Some(ActiveLimit { joint: None, value: 0.5, limit: 0.4 }),
                 Reason::JointRange | Reason::JointRate | Reason::Torque | Reason::Voltage => {
                     Some(ActiveLimit { joint: Some(Joint::LeftKnee), value: 0.5, limit: 0.4 })
                 }
@@ -309,13 +287,15 @@ mod tests {
                 (reason == Reason::Outranked).then_some(ControlAuthority { source: Source::Teleop, remaining: 0.42 });
             let verdict = match (reason, active_limit) {
                 (Reason::None, _) => Verdict::Accepted,
+                _ if is_about_a_place(reason) => Verdict::Refused,
                 (_, Some(_)) => Verdict::Limited,
                 _ => Verdict::Refused,
             };
             let predicted_margin = (verdict != Verdict::Refused).then_some(0.0214);
             let is_faulted = matches!(reason, Reason::Faulted | Reason::FaultPersists);
             let latched = is_faulted.then_some(LatchedFault { fault: Fault::MeasurementStale, time: 3.3, cause: None });
-            let reply = Reply { active_limit, authority, predicted_margin, latched, ..reply(verdict, reason) };
+            let place = is_about_a_place(reason).then_some(7);
+            let reply = Reply { active_limit, place, authority, predicted_margin, latched, ..reply(verdict, reason) };
             text += &format!("{reason:?}\n  {}\n", reply_text(&request, &reply));
             text += &format!("  {}\n", serde_json::to_string(&ReplyJson::from(&reply)).unwrap());
         }

@@ -3,10 +3,15 @@
 //! ```text
 //! {"t": 1.5, "turn_deg": 10, "speed": 1.2, "extension_deg": 0, "sidestep_deg": 0, "intent": "walk"}
 //! {"t": 3.0, "vx": 0.3, "vy": -0.1, "wz_deg_s": 15}
+//! {"t": 9.0, "goto": {"x_m": 3, "y_m": 2, "heading_deg": 90}, "speed": 1.1}
+//! {"footsteps": [{"side": "left", "x_m": 0.2, "y_m": 0.1, "heading_deg": 0}], "relative": true}
 //! ```
 //!
 //! The second line is a velocity in m/s ahead and to the left and in °/s, instead of gait parameters: what is left out
 //! of it is 0, and zero is a stand.
+//!
+//! The third is a destination in the walk frame, or an array of way-points to it; the fourth is footsteps, here seen
+//! from the robot (see [`place_json`](crate::place_json)). Of the gait parameters only a speed goes with either.
 //!
 //! `t` is the time since the start (s) and must not decrease; a request without it is due at once. At least one of the
 //! other keys is required. Empty lines are skipped. A request's id is the number of its line.
@@ -14,11 +19,12 @@
 use std::io::BufRead;
 use std::time::Duration;
 
-use interface::{GaitChange, Intent, Request, Source, WalkVelocity};
+use interface::{Destination, GaitChange, Intent, PlaceFrame, Places, Request, Source, WalkVelocity};
 use runtime::Rate;
 use serde::{Deserialize, Deserializer};
 
 use crate::lines::{BadLine, InputLines};
+use crate::place_json;
 
 /// A line of a script: a request and its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,12 +67,19 @@ struct Line {
     vx: Option<f64>,
     vy: Option<f64>,
     wz_deg_s: Option<f64>,
+    #[serde(default, deserialize_with = "place_json::waypoints")]
+    goto: Option<Places>,
+    #[serde(default, deserialize_with = "place_json::footsteps")]
+    footsteps: Option<Places>,
+    relative: Option<bool>,
     #[serde(default, deserialize_with = "intent")]
     intent: Option<Intent>,
 }
 
 const EXAMPLE: &str = r#"write e.g. {"t":1.5,"turn_deg":10,"speed":1.2,"extension_deg":0,"intent":"walk"}"#;
 const VELOCITY_EXAMPLE: &str = r#"{"t":1.5,"vx":0.3,"vy":-0.1,"wz_deg_s":15}"#;
+const GOTO_EXAMPLE: &str = r#"{"t":1.5,"goto":{"x_m":3,"y_m":2,"heading_deg":90},"relative":true}"#;
+const FOOTSTEPS_EXAMPLE: &str = r#"{"footsteps":[{"side":"left","x_m":0.2,"y_m":0.1,"heading_deg":0}]}"#;
 /// Latest time (s): longer than anyone walks, so that a later one is a mistake of unit.
 const TIME_MAX: f64 = 1e6;
 /// Most wrong lines of a script that are told.
@@ -153,12 +166,14 @@ fn timed_request(text: &str, last: &mut f64) -> Result<TimedRequest, String> {
     if !text.starts_with('{') {
         return Err(format!("not a JSON object; {EXAMPLE}"));
     }
+    let line_text = text;
     let line: Line = serde_json::from_str(text).map_err(|error| {
         let (text, column) = (error.to_string(), error.column());
         let text = text.split(" at line ").next().unwrap_or_default();
-        format!("{text} (column {column}); {EXAMPLE}")
+        format!("{text} (column {column}); {}", example(line_text))
     })?;
-    let Line { t, turn_deg, speed, extension_deg, sidestep_deg, vx, vy, wz_deg_s, intent } = line;
+    let destination = destination(&line)?;
+    let Line { t, turn_deg, speed, extension_deg, sidestep_deg, vx, vy, wz_deg_s, intent, .. } = line;
     let velocity = vx.or(vy).or(wz_deg_s).map(|_| WalkVelocity {
         ahead: vx.unwrap_or(0.0),
         left: vy.unwrap_or(0.0),
@@ -171,7 +186,7 @@ fn timed_request(text: &str, last: &mut f64) -> Result<TimedRequest, String> {
     if velocity.is_some() && intent.is_some_and(|intent| intent != Intent::Walk) {
         return Err(format!("a velocity goes with no intent but \"walk\"; write e.g. {VELOCITY_EXAMPLE}"));
     }
-    if !has_parameters && velocity.is_none() && intent.is_none() {
+    if !has_parameters && velocity.is_none() && destination.is_none() && intent.is_none() {
         return Err(format!("no command in this line; {EXAMPLE}"));
     }
     if let Some(t) = t {
@@ -192,9 +207,43 @@ fn timed_request(text: &str, last: &mut f64) -> Result<TimedRequest, String> {
             sidestep: sidestep_deg.map(f64::to_radians),
         },
         velocity,
+        destination,
         ..Request::new(Source::Script)
     };
     Ok(TimedRequest { time: t.map(Duration::from_secs_f64), request })
+}
+
+/// The destination of a line, which goes with a speed and with nothing else.
+fn destination(line: &Line) -> Result<Option<Destination>, String> {
+    let (places, example) = match (line.goto, line.footsteps) {
+        (None, None) if line.relative.is_some() => {
+            return Err(format!("relative without goto or footsteps; write e.g. {GOTO_EXAMPLE}"));
+        }
+        (None, None) => return Ok(None),
+        (Some(waypoints), None) => (waypoints, GOTO_EXAMPLE),
+        (None, Some(footsteps)) => (footsteps, FOOTSTEPS_EXAMPLE),
+        (Some(_), Some(_)) => return Err("goto and footsteps in one line: ask for one of them".to_owned()),
+    };
+    let others = [line.turn_deg, line.extension_deg, line.sidestep_deg, line.vx, line.vy, line.wz_deg_s];
+    if others.iter().any(Option::is_some) {
+        return Err(format!("of the gait parameters only a speed goes with a destination; write e.g. {example}"));
+    }
+    if line.intent.is_some_and(|intent| intent != Intent::Walk) {
+        return Err(format!("a destination goes with no intent but \"walk\"; write e.g. {example}"));
+    }
+    let frame = if line.relative == Some(true) { PlaceFrame::Robot } else { PlaceFrame::Walk };
+    Ok(Some(Destination { frame, places }))
+}
+
+/// An example of the kind of line that was meant.
+fn example(text: &str) -> String {
+    if text.contains("\"goto\"") {
+        format!("write e.g. {GOTO_EXAMPLE}")
+    } else if text.contains("\"footsteps\"") {
+        format!("write e.g. {FOOTSTEPS_EXAMPLE}")
+    } else {
+        EXAMPLE.to_owned()
+    }
 }
 
 fn intent<'d, D: Deserializer<'d>>(deserializer: D) -> Result<Option<Intent>, D::Error> {
@@ -208,16 +257,20 @@ fn intent<'d, D: Deserializer<'d>>(deserializer: D) -> Result<Option<Intent>, D:
 
 #[cfg(test)]
 mod tests {
+    use interface::{Footstep, PlaceList, WalkPose, Waypoint};
+    use model::Side;
+
     use super::*;
 
     proptest::proptest! {
         #[test]
         fn any_line_is_a_request_or_an_error_with_its_place(
-            parts in proptest::collection::vec((0..24_usize, ".{0,8}"), 0..24),
+            parts in proptest::collection::vec((0..27_usize, ".{0,8}"), 0..24),
         ) {
-            const PIECES: [&str; 20] = [
+            const PIECES: [&str; 23] = [
                 "{", "}", "\"t\"", ":", ",", "\"turn_deg\"", "\"speed\"", "\"intent\"", "\"walk\"", "\"stop\"", "1.5",
                 "-1e999", "1e308", "null", "[", "]", "\"extension_deg\"", "nan", "\u{0}", "\n",
+                "\"goto\"", "\"x_m\":1", "\"y_m\":2",
             ];
             let text: String =
                 parts.iter().map(|(piece, other)| *PIECES.get(*piece).unwrap_or(&other.as_str())).collect();
@@ -262,6 +315,58 @@ mod tests {
         assert!(problem(r#"{"vx":0.3,"turn_deg":5}"#).starts_with("f:1: a velocity and gait parameters in one line"));
         assert!(problem(r#"{"vx":0.3,"intent":"stop"}"#).starts_with("f:1: a velocity goes with no intent but"));
         assert!(Reader::new("f").read(Ok(r#"{"vx":0.3,"intent":"walk"}"#)).unwrap().is_ok());
+    }
+
+    fn destination_of(line: &str) -> Destination {
+        let step = Reader::new("f").read(Ok(line)).expect("a line").expect("it is right");
+        step.request.destination.expect("a destination")
+    }
+
+    #[test]
+    fn a_destination_is_read_in_metres_and_degrees() {
+        let waypoint = |heading| Waypoint { x: 3.0, y: -2.0, heading };
+        let goal = r#"{"x_m":3,"y_m":-2,"heading_deg":180}"#;
+        let alone = destination_of(&format!(r#"{{"goto":{goal}}}"#));
+        let expected = Places::Waypoints(PlaceList::new(&[waypoint(Some(std::f64::consts::PI))]).unwrap());
+        assert_eq!(alone, Destination { frame: PlaceFrame::Walk, places: expected });
+        let through = format!(r#"{{"t":2,"goto":[{{"x_m":3,"y_m":-2}},{goal}],"relative":true,"speed":1.1}}"#);
+        let list = [waypoint(None), waypoint(Some(std::f64::consts::PI))];
+        let expected = Places::Waypoints(PlaceList::new(&list).unwrap());
+        assert_eq!(destination_of(&through), Destination { frame: PlaceFrame::Robot, places: expected });
+        let request = Reader::new("f").read(Ok(&through)).unwrap().unwrap().request;
+        assert_eq!(request.gait, GaitChange { speed: Some(1.1), ..GaitChange::NONE });
+
+        let step = r#"{"side":"left","x_m":0.2,"y_m":0.1,"heading_deg":0}"#;
+        let sole = WalkPose { x: 0.2, y: 0.1, heading: 0.0 };
+        let expected = Places::Footsteps(PlaceList::new(&[Footstep { side: Side::Left, sole }]).unwrap());
+        let steps = destination_of(&format!(r#"{{"footsteps":[{step}],"relative":false,"intent":"walk"}}"#));
+        assert_eq!(steps, Destination { frame: PlaceFrame::Walk, places: expected });
+    }
+
+    #[test]
+    fn a_wrong_destination_is_named_with_its_place_and_goes_with_a_speed_only() {
+        let place = r#"{"x_m":1,"y_m":0}"#;
+        let told = problem(&format!(r#"{{"goto":[{place},{{"x_m":1,"z_m":2}}]}}"#));
+        assert!(told.starts_with("f:1: place 2: unknown field `z_m`, expected one of `x_m`, `y_m`"), "{told}");
+        assert!(told.contains(r#"(column 41); write e.g. {"t":1.5,"goto":{"#), "{told}");
+        let told = problem(r#"{"goto":{"x_m":1}}"#);
+        assert!(told.starts_with("f:1: place 1: missing field `y_m` (column 1"), "{told}");
+        let told = problem(&format!(r#"{{"goto":[{}]}}"#, vec![place; 25].join(",")));
+        assert!(told.starts_with("f:1: place 25: at most 24 can be given at a time (column "), "{told}");
+        assert!(problem(r#"{"goto":3}"#).starts_with("f:1: invalid type: integer `3`, expected a way-point such as {"));
+        let told = problem(r#"{"footsteps":[{"side":"up"}]}"#);
+        assert!(told.starts_with("f:1: place 1: unknown variant `up`") && told.contains(FOOTSTEPS_EXAMPLE), "{told}");
+        for other in [r#""turn_deg":5"#, r#""sidestep_deg":5"#, r#""extension_deg":5"#, r#""vx":0"#, r#""wz_deg_s":1"#]
+        {
+            let told = problem(&format!(r#"{{"goto":{place},{other}}}"#));
+            assert!(told.starts_with("f:1: of the gait parameters only a speed goes with a destination"), "{told}");
+        }
+        let told = problem(&format!(r#"{{"goto":{place},"intent":"stop"}}"#));
+        assert!(told.starts_with("f:1: a destination goes with no intent but \"walk\""), "{told}");
+        assert!(problem(r#"{"speed":1,"relative":true}"#).starts_with("f:1: relative without goto or footsteps"));
+        let step = r#"{"side":"left","x_m":0.2,"y_m":0.1,"heading_deg":0}"#;
+        let both = problem(&format!(r#"{{"goto":{place},"footsteps":[{step}]}}"#));
+        assert!(both.starts_with("f:1: goto and footsteps in one line"), "{both}");
     }
 
     #[test]

@@ -21,6 +21,8 @@ pub(crate) struct Execution {
     pub tilt: Vector2<f64>,
     /// Knots since the last step adjustment.
     pub knots_since_adjustment: u32,
+    /// The half-step in which the way to a destination was corrected last.
+    pub located_in: Option<u64>,
 }
 
 impl Execution {
@@ -32,6 +34,7 @@ impl Execution {
             clearance: SwingClearance::default(),
             tilt: Vector2::zeros(),
             knots_since_adjustment: 0,
+            located_in: None,
         }
     }
 

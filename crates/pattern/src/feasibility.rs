@@ -5,7 +5,7 @@
 //! comes near its limit; always at the same shares of the time between two knots, whenever the check is made.
 
 use dynamics::ReferenceDynamics;
-use model::{Joint, JointVector, Mechanism, Motion, Side};
+use model::{Joint, JointVector, Mechanism, Motion, Side, Sole};
 use nalgebra::{Point3, Vector2};
 
 use crate::gait::Gait;
@@ -21,6 +21,11 @@ pub struct Feasibility {
     pub margin: f64,
     /// The limit that is violated first, if any.
     pub violation: Option<LimitViolation>,
+    /// The half-step in which that is, counted from 0.
+    pub violated_in: Option<u64>,
+    /// The present half-step, and that of the least margin.
+    half_step: u64,
+    margin_in: u64,
     /// How far each limit is exceeded.
     excess: Excess,
     /// The largest share of its limit that any joint rate, torque or voltage of the present knot takes.
@@ -46,6 +51,8 @@ const MID_SWING: std::ops::Range<f64> = 0.3..0.7;
 const PARTS_NEAR_SUPPORT_CHANGE: u32 = 10;
 /// Parts into which it is divided where a drive comes near its limit.
 const PARTS_NEAR_LIMIT: u32 = 4;
+/// Ample distance of the ZMP to the edge of a sole, as a share of half of its width.
+const AMPLE: f64 = 0.5;
 /// Share of its limit from which a drive comes near it.
 const NEAR_LIMIT: f64 = 0.85;
 /// Just before and after a support change, as a share of the time between two knots.
@@ -78,6 +85,13 @@ impl FeasibilityCheck {
         }
     }
 
+    /// Whether a motion keeps every limit, and its ZMP stays as far from the edge of the sole as in a walk that does
+    /// not change.
+    pub fn is_ample(&self, feasibility: &Feasibility) -> bool {
+        let Sole { inside, outside, .. } = self.mechanism.sole;
+        feasibility.violation.is_none() && feasibility.margin >= AMPLE * 0.5 * (inside + outside)
+    }
+
     /// Advances a generator knot by knot and checks the motion between them, as long as `goes_on` says so of the
     /// generator and the number of knots so far. What lies between its present knots is planned already and not
     /// checked.
@@ -86,7 +100,7 @@ impl FeasibilityCheck {
         generator: &mut PatternGenerator,
         goes_on: impl Fn(&PatternGenerator, usize) -> bool,
     ) -> Feasibility {
-        let mut feasibility = Feasibility { margin: f64::INFINITY, violation: None, excess: Excess::NONE, load: 0.0 };
+        let mut feasibility = Feasibility::default();
         for knots in 0.. {
             if !goes_on(generator, knots) {
                 break;
@@ -96,6 +110,7 @@ impl FeasibilityCheck {
         }
         let (margin, margin_min) = (feasibility.margin, self.parameters.margin_min);
         if margin < margin_min {
+            feasibility.half_step = feasibility.margin_in;
             feasibility.note(Limit::Margin, margin, margin_min);
         }
         feasibility
@@ -104,6 +119,7 @@ impl FeasibilityCheck {
     /// Checks the motion from the present knot to the next one, and returns to the present knot.
     fn check_until_next_knot(&mut self, generator: &mut PatternGenerator, feasibility: &mut Feasibility) {
         if generator.is_leg_out_of_reach() {
+            feasibility.half_step = generator.half_step().index;
             feasibility.note(Limit::LegReach, 0.0, 0.0);
             return;
         }
@@ -133,8 +149,11 @@ impl FeasibilityCheck {
         let motion = generator.motion();
         self.dynamics.update(tree, mirror, &motion, generator.contact());
         let is_swinging = !in_double_support && OFF_SUPPORT_CHANGES.contains(&half_step.progress);
+        feasibility.half_step = half_step.index;
         if is_swinging {
-            feasibility.margin = feasibility.margin.min(self.dynamics.margin);
+            if self.dynamics.margin < feasibility.margin {
+                (feasibility.margin, feasibility.margin_in) = (self.dynamics.margin, half_step.index);
+            }
             self.check_clearance(half_step.progress, feasibility);
         }
         if is_swinging || in_double_support {
@@ -201,6 +220,21 @@ impl FeasibilityCheck {
     }
 }
 
+impl Default for Feasibility {
+    /// No motion yet.
+    fn default() -> Self {
+        Self {
+            margin: f64::INFINITY,
+            violation: None,
+            violated_in: None,
+            half_step: 0,
+            margin_in: 0,
+            excess: Excess::NONE,
+            load: 0.0,
+        }
+    }
+}
+
 impl Feasibility {
     /// Whether every limit is kept, or exceeded no further than by another motion.
     pub fn is_no_worse_than(&self, other: &Feasibility) -> bool {
@@ -211,7 +245,9 @@ impl Feasibility {
     #[must_use]
     pub fn and(mut self, other: &Feasibility) -> Self {
         self.margin = self.margin.min(other.margin);
-        self.violation = self.violation.or(other.violation);
+        if self.violation.is_none() {
+            (self.violation, self.violated_in) = (other.violation, other.violated_in);
+        }
         self.excess = self.excess.max(&other.excess);
         self
     }
@@ -220,7 +256,9 @@ impl Feasibility {
     fn note(&mut self, limit: Limit, value: f64, bound: f64) {
         let violation = LimitViolation { limit, value, bound };
         self.excess.note(&violation);
-        self.violation.get_or_insert(violation);
+        if self.violation.is_none() {
+            (self.violation, self.violated_in) = (Some(violation), Some(self.half_step));
+        }
     }
 
     /// Notes how near a value is to its limit, and a violation if it is beyond, either way.

@@ -1,10 +1,12 @@
 //! The foot trajectory: what the half-steps demand of the body at a knot, apart from the centre of mass.
 
 use dynamics::{UpperBody, atan2};
+use gait::Walk;
 use model::JointVector;
 use nalgebra::{Vector2, Vector3};
 
 use crate::footstep_plan::{FootstepEvent, FootstepPlan};
+use crate::gait_state::GaitState;
 use crate::hip_height::HipHeight;
 use crate::knot::KNOT;
 use crate::modified_half_step::ModifiedHalfStep;
@@ -25,6 +27,8 @@ pub(crate) struct FootTrajectory {
 
 /// The slowest walk that the limits of a gait can permit.
 const SPEED_MIN: f64 = 0.05;
+/// Progress until which a half-step can be changed: the foot has the rest of it to get elsewhere.
+const REDIRECTED_UNTIL: f64 = 0.6;
 
 impl FootTrajectory {
     /// The trajectory from the present knot of a footstep plan.
@@ -46,16 +50,33 @@ impl FootTrajectory {
             *adjustment = StepAdjustment::default();
         }
         if event == FootstepEvent::SupportChange {
-            let walk = &footsteps.walk;
-            let speed = walk.speed().target().min(walk.speed().state().value).max(SPEED_MIN);
-            let half_duration = 0.5 * walk.table().duration / speed / model.lipm_residual.height_over_gravity.sqrt();
             let swing_sole = |progress| swing.at(progress, &footsteps.swing_sole(model, progress));
-            hips.begin_half_step(half_duration, swing_sole);
+            hips.begin_half_step(half_duration(model, &footsteps.walk), swing_sole);
         }
         if footsteps.gait_state.is_standing() {
             hips.crouch(&footsteps.feet.lift_off, footsteps.gait_state.weight_shift_progress());
         }
         event == FootstepEvent::SupportChange
+    }
+
+    /// Lets the half-step that is on change over to the command already, if there is time. Returns the half-step from
+    /// which on all of it is in effect then.
+    pub(crate) fn redirect(&mut self, model: &PatternModel) -> Option<u64> {
+        let Self { footsteps, swing, adjustment, hips } = self;
+        let progress = footsteps.walk.half_step().progress;
+        if footsteps.gait_state != GaitState::Walking || progress > REDIRECTED_UNTIL || swing.is_redirected() {
+            return None;
+        }
+        let effect_half_step = footsteps.redirect();
+        let landing = footsteps.landing(model);
+        let modified = |progress| footsteps.swing_sole(model, progress);
+        swing.redirect(progress, &landing, modified);
+        let swing_sole = |progress| swing.at(progress, &modified(progress));
+        hips.redirect(progress, half_duration(model, &footsteps.walk), swing_sole);
+        let adjusted = adjustment.target();
+        footsteps.feet.landing = landing;
+        footsteps.feet.landing.position += Vector3::new(adjusted.x, adjusted.y, 0.0);
+        Some(effect_half_step)
     }
 
     /// Lands the swing foot off its planned place, as far as feet and legs allow. Returns whether that changed
@@ -148,6 +169,12 @@ impl FootTrajectory {
     pub(crate) fn speed(&self) -> f64 {
         if self.footsteps.gait_state.is_standing() { 0.0 } else { self.footsteps.walk.speed().state().value }
     }
+}
+
+/// Half the duration of a half-step times the rate of the pendulum (-).
+fn half_duration(model: &PatternModel, walk: &Walk) -> f64 {
+    let speed = walk.speed().target().min(walk.speed().state().value).max(SPEED_MIN);
+    0.5 * walk.table().duration / speed / model.lipm_residual.height_over_gravity.sqrt()
 }
 
 fn swing_path(model: &PatternModel, footsteps: &FootstepPlan) -> SwingPath {

@@ -1,5 +1,7 @@
 //! Poses of the feet: soles in support coordinates, footprints in the walk frame.
 
+use std::f64::consts::{PI, TAU};
+
 use dynamics::{atan2, pose_seen_from, sin_cos};
 use interface::WalkPose;
 use model::Side;
@@ -55,13 +57,23 @@ impl Footprint {
         Self { foot_to_walk: self.foot_to_walk * step, side: self.side.other() }
     }
 
+    /// Its pose in the walk frame.
+    pub(crate) fn pose(&self) -> WalkPose {
+        let (place, turn) = (self.foot_to_walk.translation.vector, self.foot_to_walk.rotation);
+        WalkPose { x: place.x, y: place.y, heading: atan2(turn.im, turn.re) }
+    }
+
     /// Another footprint in the frame of this foot, not mirrored.
     pub(crate) fn sees(&self, other: &Footprint) -> WalkPose {
-        let [here, there] = [self, other].map(|foot| {
-            let (place, turn) = (foot.foot_to_walk.translation.vector, foot.foot_to_walk.rotation);
-            WalkPose { x: place.x, y: place.y, heading: atan2(turn.im, turn.re) }
-        });
-        pose_seen_from(&here, &there)
+        pose_seen_from(&self.pose(), &other.pose())
+    }
+
+    /// A sole of the walk frame in support coordinates of this foot, on the ground. Its heading is within ±π of this
+    /// one's.
+    pub(crate) fn sole_at(&self, sole: &WalkPose) -> SolePose {
+        let seen = pose_seen_from(&self.pose(), sole);
+        let position = self.mirrored(Vector2::new(seen.x, seen.y)).push(0.0);
+        SolePose { position, yaw: self.side.lateral_sign() * within_half_turn(seen.heading) }
     }
 
     /// Expresses a point of support coordinates in the walk frame.
@@ -88,6 +100,11 @@ impl Footprint {
     fn mirrored(&self, vector: Vector2<f64>) -> Vector2<f64> {
         Vector2::new(vector.x, self.side.lateral_sign() * vector.y)
     }
+}
+
+/// The same angle, within ±π (rad).
+pub(crate) fn within_half_turn(angle: f64) -> f64 {
+    (angle + PI).rem_euclid(TAU) - PI
 }
 
 /// A rotation about the vertical. It calls no mathematical library of the system, which would round differently
@@ -120,6 +137,17 @@ mod tests {
             assert_eq!(second.next(&landed.former_support()).side, side);
             let back = second.next(&landed.former_support()).foot_to_walk;
             assert!((back.rotation.angle() - 0.4).abs() < 1e-15, "{}", back.rotation.angle());
+        }
+    }
+
+    #[test]
+    fn a_sole_that_lands_where_it_is_seen_is_there() {
+        for side in Side::BOTH {
+            let foot = Footprint { foot_to_walk: Isometry2::new(Vector2::new(1.0, 2.0), 3.0), side };
+            let sole = WalkPose { x: 0.7, y: 2.1, heading: -3.1 };
+            let landed = foot.next(&foot.sole_at(&sole)).pose();
+            assert!((landed.x - sole.x).abs() < 1e-14 && (landed.y - sole.y).abs() < 1e-14, "{landed:?}");
+            assert!(within_half_turn(landed.heading - sole.heading).abs() < 1e-14, "{landed:?}");
         }
     }
 }

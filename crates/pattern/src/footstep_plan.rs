@@ -4,6 +4,8 @@ use gait::{RangeCheck, Walk};
 use interface::{Command, GaitChange, Verdict, WalkPose};
 use nalgebra::{Vector2, Vector3};
 
+use crate::course::{Course, CourseStep};
+use crate::feet::Feet;
 use crate::footprint::{Footprint, SolePose, rotation_about_z};
 use crate::gait_state::{GaitState, Goal, Stance};
 use crate::modified_half_step::ModifiedHalfStep;
@@ -25,6 +27,8 @@ pub(crate) struct FootstepPlan {
     pace: Pace,
     /// The command with which the present half-step began.
     begun_with: Command,
+    /// The walk to a destination, also once the robot is there. It says where the feet land instead of the command.
+    course: Option<Course>,
 }
 
 /// Within so many knots a half-step ends, unless the robot comes to a stand or walks very slowly.
@@ -41,34 +45,6 @@ pub(crate) enum FootstepEvent {
     LiftOff,
 }
 
-/// The feet of a half-step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Feet {
-    /// The support foot, in the walk frame.
-    pub footprint: Footprint,
-    /// The other foot before it swings, in support coordinates.
-    pub lift_off: SolePose,
-    /// The other foot after it has swung, in support coordinates.
-    pub landing: SolePose,
-}
-
-impl Feet {
-    /// A point between both soles before the swing foot leaves, in support coordinates (m).
-    ///
-    /// * `share` – of the support sole: 1 is a point of it
-    /// * `aside` – how far to the left of the support ankle the point of the support sole is (m); that of the other
-    ///   sole is its mirror image
-    pub(crate) fn between(&self, share: f64, aside: f64) -> Vector2<f64> {
-        let (own, rest) = (Vector2::new(0.0, aside), 1.0 - share);
-        // While walking, no angle need be computed.
-        if rest <= 0.0 {
-            return own;
-        }
-        let of_other = rotation_about_z(self.lift_off.yaw) * Vector3::new(0.0, -aside, 0.0);
-        (self.lift_off.position + of_other).xy() * rest + own * share
-    }
-}
-
 impl FootstepPlan {
     /// A walk at the very beginning of its first half-step.
     pub(crate) fn walking(model: &PatternModel, walk: Walk) -> Self {
@@ -77,7 +53,7 @@ impl FootstepPlan {
         let command = walk.command();
         let feet = Feet { footprint, lift_off, landing: lift_off };
         let gait_state = GaitState::Walking;
-        let mut plan = Self { walk, gait_state, feet, command, pace: Pace::AtOnce, begun_with: command };
+        let mut plan = Self { walk, gait_state, feet, command, pace: Pace::AtOnce, begun_with: command, course: None };
         plan.feet.landing = plan.landing(model);
         plan
     }
@@ -89,7 +65,7 @@ impl FootstepPlan {
         let feet = Feet { footprint, lift_off: parallel, landing: parallel };
         let gait_state = GaitState::Standing(Stance::Parallel);
         let (command, begun_with) = (walk.command(), Command::NOMINAL);
-        let mut plan = Self { command, walk, gait_state, feet, pace: Pace::AtOnce, begun_with };
+        let mut plan = Self { command, walk, gait_state, feet, pace: Pace::AtOnce, begun_with, course: None };
         plan.walk.force(&Command::NOMINAL);
         plan.feet.landing = plan.landing(model);
         plan
@@ -104,6 +80,9 @@ impl FootstepPlan {
     ///
     /// * `pace` – at which the walk changes over to it
     pub(crate) fn admit(&mut self, request: &GaitChange, pace: Pace) -> RangeCheck {
+        if (GaitChange { speed: None, ..*request }) != GaitChange::NONE {
+            self.course = None;
+        }
         let mut admission = self.walk.grant(request, self.command);
         if admission.verdict != Verdict::Refused {
             (self.command, self.pace) = (admission.granted, pace);
@@ -114,8 +93,28 @@ impl FootstepPlan {
         admission
     }
 
+    /// The walk to a destination, if there is one.
+    pub(crate) fn course(&self) -> Option<&Course> {
+        self.course.as_ref()
+    }
+
+    /// Walks to a destination and stands there, from the next half-step on.
+    pub(crate) fn follow(&mut self, course: Course) {
+        self.set_goal(Goal::Walk);
+        self.course = Some(course);
+        self.apply_command();
+    }
+
+    /// Corrects where the places of the destination are.
+    pub(crate) fn set_course_frame(&mut self, frame: WalkPose) {
+        if let Some(course) = &mut self.course {
+            course.set_frame(frame);
+        }
+    }
+
     /// Commands a walk, steps in place or a stand.
     pub(crate) fn set_goal(&mut self, goal: Goal) {
+        self.course = None;
         let was_in_place = matches!(self.gait_state, GaitState::InPlace { .. });
         self.gait_state.set_goal(goal);
         if let GaitState::Stopping { half_steps: half_steps @ 1, .. } = &mut self.gait_state
@@ -134,10 +133,23 @@ impl FootstepPlan {
         }
     }
 
+    /// Lets the half-step that is on begin to change over to the command, which is in force already. Returns the
+    /// half-step from which on all of it is.
+    pub(crate) fn redirect(&mut self) -> u64 {
+        let half_steps = self.pace.half_steps(&self.begun_with, &self.command);
+        let next = self.pace.towards(&self.begun_with, &self.command);
+        let before = std::mem::replace(&mut self.begun_with, next);
+        self.walk.redirect(&next, &before) + half_steps.saturating_sub(1)
+    }
+
     /// Lets the walk follow the command as far as the gait state allows: in place without extension and no faster than
     /// the nominal, not at all around a stand. Returns the half-step from which on it does, see [`Walk::force`].
     fn apply_command(&mut self) -> Option<u64> {
         match self.gait_state {
+            GaitState::Walking if self.course.is_some() => {
+                // The course aims each half-step.
+                Some(self.walk.force(&Command { speed: self.command.speed, ..Command::NOMINAL }))
+            }
             GaitState::Walking if self.pace != Pace::AtOnce => {
                 let half_steps = self.pace.half_steps(&self.begun_with, &self.command);
                 let next = self.pace.towards(&self.begun_with, &self.command);
@@ -163,24 +175,35 @@ impl FootstepPlan {
             self.begun_with = self.walk.command();
             self.feet.lift_off = self.feet.landing.former_support();
             self.feet.footprint = self.feet.footprint.next(&self.feet.landing);
-            self.feet.landing = self.landing(model);
+            self.feet.landing = self.begin_step_of_course(model).unwrap_or_else(|| self.landing(model));
             if self.pace != Pace::AtOnce && self.gait_state == GaitState::Walking {
                 self.apply_command();
             }
             FootstepEvent::SupportChange
         } else if was_standing && !self.gait_state.is_standing() {
-            if self.pace != Pace::AtOnce && self.gait_state == GaitState::Walking {
+            if self.pace != Pace::AtOnce && self.gait_state == GaitState::Walking && self.course.is_none() {
                 // From feet side by side a step of any direction is a first one.
                 let in_place = Command { extension: 2.0 * model.velocity.no_step(), ..Command::NOMINAL };
                 self.walk.restart(&self.pace.towards(&in_place, &self.command));
                 self.begun_with = self.walk.command();
             }
             self.apply_command();
-            self.feet.landing = self.landing(model);
+            self.feet.landing = self.begin_step_of_course(model).unwrap_or_else(|| self.landing(model));
             FootstepEvent::LiftOff
         } else {
             FootstepEvent::None
         }
+    }
+
+    /// Aims the half-step that begins if the robot walks to a destination. Returns where the swing foot lands then.
+    fn begin_step_of_course(&mut self, model: &PatternModel) -> Option<SolePose> {
+        let course = self.course.as_mut().filter(|_| self.gait_state == GaitState::Walking)?;
+        let CourseStep { landing, stance } = course.next_step(model, &self.feet)?;
+        self.walk.aim(&model.velocity.geometry().legs(&landing));
+        if let Some(stance) = stance {
+            self.gait_state = GaitState::Stopping { half_steps: 1, stance, goal: Goal::Stand(stance) };
+        }
+        Some(landing)
     }
 
     /// The predicted ZMP of the whole body less that of the cart-table model, in support coordinates (m); zero in a
@@ -204,7 +227,7 @@ impl FootstepPlan {
     }
 
     /// Where the swing sole of the present half-step lands.
-    fn landing(&self, model: &PatternModel) -> SolePose {
+    pub(crate) fn landing(&self, model: &PatternModel) -> SolePose {
         let mut landing = self.swing_sole(model, 1.0);
         landing.position.z = 0.0;
         match self.gait_state {

@@ -25,6 +25,8 @@ pub(crate) struct HipHeight {
     lowered_at_end: f64,
     /// Lowering when the half-step began, before any crouch (m).
     lowered_at_support_change: f64,
+    /// Progress from which on more is lowered for another landing, and how much more at progress 1 (m).
+    redirected: (f64, f64),
 }
 
 /// Progress at which the swing leg may be longest: the foot is ahead before the body has followed.
@@ -42,6 +44,7 @@ impl HipHeight {
             lowered_at_start: 0.0,
             lowered_at_end: 0.0,
             lowered_at_support_change: 0.0,
+            redirected: (0.0, 0.0),
         }
     }
 
@@ -50,8 +53,22 @@ impl HipHeight {
     /// * `half_duration` – half the half-step's duration times the rate of the pendulum (-)
     /// * `swing_sole` – the swing sole at a progress
     pub(crate) fn begin_half_step(&mut self, half_duration: f64, swing_sole: impl Fn(f64) -> SolePose) {
+        self.lowered_at_end += self.redirected.1;
+        self.redirected = (0.0, 0.0);
         self.lowered_at_support_change = self.lowered_at_end;
         self.lowered_at_start = self.lowered_at_end;
+        self.lowered_at_end = self.needed_to_land(half_duration, swing_sole);
+    }
+
+    /// Lands elsewhere, from a progress on.
+    ///
+    /// * `half_duration`, `swing_sole` – as in [`begin_half_step`](Self::begin_half_step)
+    pub(crate) fn redirect(&mut self, from: f64, half_duration: f64, swing_sole: impl Fn(f64) -> SolePose) {
+        self.redirected = (from, self.needed_to_land(half_duration, swing_sole) - self.lowered_at_end);
+    }
+
+    /// The lowering that lets the swing leg reach late in its swing (m).
+    fn needed_to_land(&self, half_duration: f64, swing_sole: impl Fn(f64) -> SolePose) -> f64 {
         let width = Vector2::new(0.0, self.hip_width);
         let middle = (swing_sole(1.0).position.xy() - width) / 2.0;
         let lowered = LATE_SWING.map(|progress| {
@@ -60,7 +77,7 @@ impl HipHeight {
             let reach = swing_sole(progress).position.xy() - width - middle * passed;
             self.needed(reach.norm() + self.hip_offset_max)
         });
-        self.lowered_at_end = lowered.into_iter().fold(0.0, f64::max);
+        lowered.into_iter().fold(0.0, f64::max)
     }
 
     /// Crouches for a start from a stand: the pelvis moves over the support foot while the other one is still on the
@@ -82,7 +99,9 @@ impl HipHeight {
 
     /// How much lower than the nominal the hips are at a progress (m).
     pub(crate) fn lowered(&self, progress: f64) -> f64 {
-        self.lowered_at_start + (self.lowered_at_end - self.lowered_at_start) * smooth_step(progress)
+        let planned = self.lowered_at_start + (self.lowered_at_end - self.lowered_at_start) * smooth_step(progress);
+        let (from, more) = self.redirected;
+        if more == 0.0 { planned } else { planned + more * smooth_step(((progress - from) / (1.0 - from)).max(0.0)) }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Incremental replanning: a change that the loop itself makes, a stop or a step after a push, is planned over several
 //! ticks, so that none of them takes long, and takes over at a coming knot.
 
+use interface::WalkPose;
 use nalgebra::Vector2;
 
 use crate::dynamics_filter::DynamicsFilter;
@@ -28,17 +29,24 @@ pub(crate) struct PlanChange {
     pub goal: Option<Goal>,
     /// Offset of the landing of the swing foot, in support coordinates (m).
     pub step_offset: Option<Vector2<f64>>,
+    /// Where the frame of the destination is, in the walk frame.
+    pub course_frame: Option<WalkPose>,
 }
 
 impl PlanChange {
     /// Makes the change. Returns whether anything is different.
     pub(crate) fn apply(&self, model: &PatternModel, feet: &mut FootTrajectory) -> bool {
-        let before = feet.footsteps.gait_state;
+        let (before, had_destination) = (feet.footsteps.gait_state, feet.footsteps.course().is_some());
         if let Some(goal) = self.goal {
             feet.footsteps.set_goal(goal);
         }
+        let has_destination = feet.footsteps.course().is_some();
+        let is_redirected = self.course_frame.is_some() && has_destination;
+        if let Some(frame) = self.course_frame {
+            feet.footsteps.set_course_frame(frame);
+        }
         let is_adjusted = self.step_offset.is_some_and(|offset| feet.adjust_step(model, offset));
-        is_adjusted || feet.footsteps.gait_state != before
+        is_adjusted || is_redirected || has_destination != had_destination || feet.footsteps.gait_state != before
     }
 }
 
@@ -69,6 +77,7 @@ impl IncrementalReplan {
         self.change = PlanChange {
             goal: change.goal.or(self.change.goal),
             step_offset: change.step_offset.or(self.change.step_offset),
+            course_frame: change.course_frame.or(self.change.course_frame),
         };
         self.foot_trajectory.clone_from(feet);
         self.dynamics_filter.clone_from(filter);

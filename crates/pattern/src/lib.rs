@@ -4,7 +4,8 @@
 //! The data flow in this order; each stage has a file of its own:
 //!
 //! 1. `gait_state`: whether the robot walks, steps in place, starts, stops or stands.
-//! 2. `footstep_plan`: which half-steps come and where they put the feet (`step_geometry`, `walk_velocity`).
+//! 2. `footstep_plan`: which half-steps come and where they put the feet (`step_geometry`, `walk_velocity`;
+//!    `course`, `step_bounds` and `footstep_check` on the way to a destination).
 //! 3. `zmp_reference`: the reference of the zero-moment point (ZMP) over the coming 1.8 s.
 //! 4. `preview_controller`: the centre of mass of the cart-table model that tracks this reference.
 //! 5. `foot_trajectory`: swing sole, pelvis and hip height (`swing_path`, `step_adjustment`, `hip_height`).
@@ -22,11 +23,14 @@
 //! * **newest knot**: the last planned one. It lies one to two knots after the present, so that the present has planned
 //!   neighbours on both sides.
 
+mod course;
 mod dynamics_filter;
 mod execution;
 mod feasibility;
+mod feet;
 mod foot_trajectory;
 mod footprint;
+mod footstep_check;
 mod footstep_plan;
 mod gait;
 mod gait_phase;
@@ -48,6 +52,7 @@ mod proportions;
 mod sole_friction;
 mod speed_override;
 mod step_adjustment;
+mod step_bounds;
 mod step_geometry;
 mod stop_in_stride;
 mod swing_clearance;
@@ -58,6 +63,7 @@ mod whole_body_ik;
 mod zmp_reference;
 
 pub use feasibility::{Feasibility, FeasibilityCheck, FeasibilityParameters};
+pub use footstep_check::{FootstepFault, FootstepProblem};
 pub use gait_phase::GaitPhase;
 pub use gait_state::{GaitState, Goal, Stance};
 pub use knot::KNOT;

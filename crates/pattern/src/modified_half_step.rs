@@ -198,4 +198,21 @@ mod tests {
             assert!((found.swing_sole.position - sole.translation.vector).norm() < 1e-14);
         }
     }
+
+    /// The legs are seen as lines, so that the landing is met to 15 mm. The path of the swing sole does the rest.
+    #[test]
+    fn legs_that_are_aimed_land_where_they_are_to() {
+        let mechanism = Mechanism::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism.toml")).unwrap();
+        let mut walk = walk(&mechanism, Command::NOMINAL);
+        let model = PatternModel::new(&mechanism, walk.mirror(), walk.table());
+        let width = mechanism.foot_distance();
+        for (x, y, yaw) in [(0.3, width, 0.0), (-0.2, width + 0.1, 0.0), (0.1, width + 0.05, 0.4), (0.0, width, 0.3)] {
+            let asked = SolePose { position: Vector3::new(x, y, 0.0), yaw };
+            walk.aim(&model.velocity.geometry().legs(&asked));
+            let lands = ModifiedHalfStep::new(&model, &walk, 1.0).swing_sole;
+            let off = (lands.position - asked.position).xy().norm();
+            assert!(off < 0.015 && (lands.yaw - yaw).abs() < 0.01, "{asked:?}: {lands:?}");
+            walk.advance(walk.table().duration);
+        }
+    }
 }

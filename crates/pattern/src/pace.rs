@@ -7,6 +7,8 @@ use interface::Command;
 pub enum Pace {
     /// All of it, as soon as each parameter can change: what gait parameters ask for.
     AtOnce,
+    /// As [`Quick`](Self::Quick), beginning with the half-step that is on, unless it is too late for that.
+    InStep,
     /// Most of it: two or three half-steps from one end of the range to the other.
     Quick,
     /// Little: the body lags behind least, and more can be granted.
@@ -21,7 +23,7 @@ impl Pace {
     fn change_max(self) -> [f64; 4] {
         match self {
             Pace::AtOnce => [f64::INFINITY; 4],
-            Pace::Quick => QUICK,
+            Pace::InStep | Pace::Quick => QUICK,
             Pace::Gradual => GRADUAL,
         }
     }
@@ -56,7 +58,7 @@ mod tests {
     fn a_change_arrives_after_as_many_half_steps_as_told() {
         let from = Command { turn: -0.5, speed: 0.8, extension: -0.6, sidestep: 0.0 };
         let to = Command { turn: 0.3, speed: 1.5, extension: 0.2, sidestep: -0.25 };
-        for pace in [Pace::AtOnce, Pace::Quick, Pace::Gradual] {
+        for pace in [Pace::AtOnce, Pace::InStep, Pace::Quick, Pace::Gradual] {
             let (mut now, told) = (from, pace.half_steps(&from, &to).max(1));
             for half_step in 1..=told {
                 now = pace.towards(&now, &to);

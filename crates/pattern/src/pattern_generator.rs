@@ -1,5 +1,7 @@
 //! The walking-pattern generator: modifies the half-steps, plans the centre of mass over them, and realises both.
 
+mod destination;
+
 use std::sync::Arc;
 
 use gait::{RangeCheck, Walk};
@@ -130,7 +132,7 @@ impl PatternGenerator {
 
     /// Changes to another gait within two knots. Planning is spread over the ticks until then.
     pub fn set_goal_soon(&mut self, goal: Goal) {
-        self.replan_soon(PlanChange { goal: Some(goal), step_offset: None });
+        self.replan_soon(PlanChange { goal: Some(goal), ..PlanChange::default() });
     }
 
     /// The state of the gait at the newest knot.
@@ -310,7 +312,7 @@ impl Gait for PatternGenerator {
     }
 
     fn adjust_step(&mut self, error: Vector2<f64>) {
-        let change = PlanChange { goal: None, step_offset: Some(error) };
+        let change = PlanChange { step_offset: Some(error), ..PlanChange::default() };
         if self.knots_until_touchdown().is_some()
             && self.plan.is_worth_adjusting(&self.model, error, self.execution.playback.elapsed())
             && self.replan_soon(change)

@@ -6,6 +6,7 @@ use interface::{Command, GaitChange, WalkPose};
 use model::{GRAVITY, Motion};
 use nalgebra::Vector2;
 
+use crate::course::Course;
 use crate::dynamics_filter::DynamicsFilter;
 use crate::foot_trajectory::FootTrajectory;
 use crate::footprint::Footprint;
@@ -101,27 +102,41 @@ impl Plan {
         request: &GaitChange,
         pace: Pace,
     ) -> RangeCheck {
-        let before = self.command();
+        let (before, had_destination) = (self.command(), self.footsteps().course().is_some());
         let footsteps = &mut self.foot_trajectory.footsteps;
-        let admission = footsteps.admit(request, pace);
+        let mut admission = footsteps.admit(request, pace);
         let speed = footsteps.walk.speed().target();
         if speed != before.speed
             && let Some(overriding) = playback.overriding_speed_at_newest(speed)
         {
             footsteps.walk.take_over_speed(overriding);
         }
-        if self.command() != before {
+        if self.command() != before || self.footsteps().course().is_some() != had_destination {
+            if pace == Pace::InStep
+                && let Some(effect_half_step) = self.foot_trajectory.redirect(model)
+            {
+                admission.effect_half_step = effect_half_step;
+            }
             self.replan_at_once(model);
         }
         admission
     }
 
+    /// Walks to a destination at a speed factor, and plans it at once.
+    pub(crate) fn follow(&mut self, model: &PatternModel, course: Course, speed: f64) {
+        let footsteps = &mut self.foot_trajectory.footsteps;
+        footsteps.admit(&GaitChange { speed: Some(speed), ..GaitChange::NONE }, Pace::AtOnce);
+        footsteps.follow(course);
+        self.replan.forget_goal();
+        self.replan_at_once(model);
+    }
+
     /// Changes to another gait, and plans it at once.
     pub(crate) fn set_goal(&mut self, model: &PatternModel, goal: Goal) {
-        let before = self.gait_state();
+        let (before, had_destination) = (self.gait_state(), self.footsteps().course().is_some());
         let overruled = self.replan.change().goal;
         self.foot_trajectory.footsteps.set_goal(goal);
-        if self.gait_state() != before || overruled.is_some_and(|overruled| overruled != goal) {
+        if self.gait_state() != before || had_destination || overruled.is_some_and(|overruled| overruled != goal) {
             self.replan.forget_goal();
             self.replan_at_once(model);
         }

@@ -3,9 +3,11 @@
 //! The legs of the nominal half-step are taken at its end, as lines from hip to ankle; see `modified_half_step`.
 
 use dynamics::{Kinematics, Tree, sin_cos};
-use gait::NominalTable;
+use gait::{LegOffsets, NominalTable};
 use model::{LegReach, Mechanism, Side};
-use nalgebra::Vector3;
+use nalgebra::{Matrix2, Vector3};
+
+use crate::footprint::SolePose;
 
 /// The legs at the end of the nominal half-step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,6 +85,17 @@ impl StepGeometry {
             spread += (sine - at) / slope;
         }
         spread
+    }
+
+    /// The offsets of the legs with which the swing sole lands at a place, in support coordinates: to 15 mm, since the
+    /// legs are seen as lines.
+    pub(crate) fn legs(&self, landing: &SolePose) -> LegOffsets {
+        // The frame between the headings of both feet.
+        let turn = 0.5 * landing.yaw;
+        let (sine, cosine) = sin_cos(-turn);
+        let seen = Matrix2::new(cosine, -sine, sine, cosine) * landing.position.xy();
+        let reach = self.reach(seen.x);
+        LegOffsets { turn, reach, spread: self.spread(seen.y - self.width, reach) }
     }
 
     /// Heights of both hips over their ankles, summed, with the legs swung ahead (m).

@@ -62,6 +62,11 @@ impl VelocityMap {
         SteadyWalk { step_ahead, step_aside, velocity }
     }
 
+    /// Step lengths of the robot.
+    pub(crate) fn geometry(&self) -> &StepGeometry {
+        &self.geometry
+    }
+
     /// The swing ahead of either leg (rad) that leaves the feet side by side.
     pub(crate) fn no_step(&self) -> f64 {
         self.geometry.reach(0.0)

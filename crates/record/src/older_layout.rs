@@ -10,8 +10,16 @@ use wire::{Layout, NumberType};
 use crate::schema;
 
 /// Layouts of earlier versions that can be read.
-const OLDER: [&str; 5] =
-    ["halfstep.Request.v2", "halfstep.Request.v3", "halfstep.Reply.v2", "halfstep.Reply.v3", "halfstep.Report.v2"];
+const OLDER: [&str; 8] = [
+    "halfstep.Request.v2",
+    "halfstep.Request.v3",
+    "halfstep.Request.v4",
+    "halfstep.Reply.v2",
+    "halfstep.Reply.v3",
+    "halfstep.Reply.v4",
+    "halfstep.Report.v2",
+    "halfstep.Report.v3",
+];
 
 /// How a message of an earlier version becomes one of this version.
 pub(crate) struct OlderLayout {
@@ -64,7 +72,7 @@ impl OlderLayout {
 
 #[cfg(test)]
 mod tests {
-    use wire::{ReplyMessage, RequestMessage, WireLayout};
+    use wire::{ReplyMessage, ReportMessage, RequestMessage, WireLayout};
 
     use super::*;
 
@@ -93,6 +101,11 @@ mod tests {
             extension: 0.3,
             sidestep: 0.0,
             velocity: [0.0; 3],
+            places: [0.0; 72],
+            place_count: 0,
+            place_kind: 0,
+            place_frame: 0,
+            place_marks: 0,
             age_limit: 4.5,
             id: 0,
             expires_ns: 0,
@@ -111,7 +124,32 @@ mod tests {
         bytes.extend([0.0; 4].map(f64::to_le_bytes).concat());
         let reply = ReplyMessage::decode(&older.convert(&bytes).unwrap()).unwrap().checked().unwrap();
         assert_eq!((reply.id, reply.mode, reply.latched, reply.effect_half_step), (0, None, None, 5));
+        assert_eq!((reply.place, reply.arrival), (None, None));
         assert_eq!((reply.granted.turn, reply.granted.speed), (0.1, 1.2));
+    }
+
+    /// This version's layout without the fields of destinations, under an earlier name.
+    fn before_destinations(layout: &Layout, earlier: &str) -> Layout {
+        let is_new = |name: &str| name.starts_with("place") || name.starts_with("destination") || name == "arrival";
+        let mut before =
+            Layout { type_name: OLDER.into_iter().find(|name| *name == earlier).unwrap(), ..layout.clone() };
+        before.fields.retain(|field| !is_new(field.name));
+        assert!(before.fields.len() < layout.fields.len());
+        before
+    }
+
+    #[test]
+    fn messages_of_the_version_before_have_no_destination() {
+        let of_message = |layout: &Layout, earlier: &str, size: usize| {
+            let older = OlderLayout::of(&schema::text(&before_destinations(layout, earlier)), layout).unwrap();
+            older.convert(&vec![0; size]).unwrap()
+        };
+        let request = of_message(&RequestMessage::layout(), "halfstep.Request.v4", 104);
+        assert_eq!(RequestMessage::decode(&request).unwrap().checked().unwrap().destination, None);
+        let report = of_message(&ReportMessage::layout(), "halfstep.Report.v3", 392);
+        assert_eq!(ReportMessage::decode(&report).unwrap().checked().unwrap().destination, None);
+        // A reply of zeros has no verdict.
+        of_message(&ReplyMessage::layout(), "halfstep.Reply.v4", 168);
     }
 
     #[test]

@@ -121,8 +121,13 @@ impl WalkOdometry {
         WalkPose { x: x / 2.0, y: y / 2.0, heading: heading / 2.0 }
     }
 
+    /// The sole of the support foot.
+    pub fn support_sole(&self) -> WalkPose {
+        self.sole
+    }
+
     /// The middle between both soles.
-    fn pose(&self) -> WalkPose {
+    pub fn pose(&self) -> WalkPose {
         let [pose] = poses_in_frame_of(&self.sole, &[self.middle()]);
         pose
     }

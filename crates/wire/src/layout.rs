@@ -99,16 +99,19 @@ wire_layout!(MeasurementMessage as type_name::<MeasurementMessage>(), {
     tick, time_ns, sample, angles, rates, wrench_right, wrench_left, imu_orientation, imu_rate, motor_current,
 });
 wire_layout!(RequestMessage as type_name::<RequestMessage>(), {
-    not_before, present, intent, source, lasting, turn, speed, extension, sidestep, velocity, age_limit, id, expires_ns,
+    not_before, present, intent, source, lasting, turn, speed, extension, sidestep, velocity, places, place_count,
+    place_kind, place_frame, place_marks, age_limit, id, expires_ns,
 });
 wire_layout!(ReplyMessage as type_name::<ReplyMessage>(), {
     id, verdict, reason, effect_half_step, turn, speed, extension, sidestep, step_ahead, step_aside, velocity,
     intent, known, joint, source, value, limit, remaining, predicted_margin, mode, fault, fault_time, cause, sensor,
+    place, arrival,
 });
 wire_layout!(ReportMessage as type_name::<ReportMessage>(), {
     tick, time_ns, mode, support, half_step, progress, speed, turn, extension, sidestep, zmp_in_support, zmp_planned,
     margin, lean, added, com_in_support, com_velocity_in_support, com_planned, com_velocity_planned, pose,
-    walk_velocity, support_sole, landing, landing_after, faults, missed, compute_ns,
+    walk_velocity, support_sole, landing, landing_after, destination, destination_places_left, destination_distance,
+    destination_turn, faults, missed, compute_ns,
 });
 
 /// The layouts of all messages.

@@ -23,7 +23,7 @@ use crate::{
 /// Name of the socket in the instance's folder.
 const FILE: &str = "urgent";
 /// Room for any message of the socket (bytes).
-const SIZE: usize = 256;
+const SIZE: usize = 1024;
 
 /// The controller's end.
 #[derive(Debug)]

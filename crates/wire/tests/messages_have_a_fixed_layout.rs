@@ -41,32 +41,34 @@ fn measurement_message_has_a_fixed_layout() {
 
 #[test]
 fn request_message_has_a_fixed_layout() {
-    assert_layout!(RequestMessage, 104, {
+    assert_layout!(RequestMessage, 696, {
         not_before @ 0 + 8, present @ 8 + 4, intent @ 12 + 4, source @ 16 + 4, lasting @ 20 + 4, turn @ 24 + 8,
-        speed @ 32 + 8, extension @ 40 + 8, sidestep @ 48 + 8, velocity @ 56 + 24, age_limit @ 80 + 8,
-        id @ 88 + 8, expires_ns @ 96 + 8,
+        speed @ 32 + 8, extension @ 40 + 8, sidestep @ 48 + 8, velocity @ 56 + 24, places @ 80 + 576,
+        place_count @ 656 + 4, place_kind @ 660 + 4, place_frame @ 664 + 4, place_marks @ 668 + 4,
+        age_limit @ 672 + 8, id @ 680 + 8, expires_ns @ 688 + 8,
     });
 }
 
 #[test]
 fn reply_message_has_a_fixed_layout() {
-    assert_layout!(ReplyMessage, 168, {
+    assert_layout!(ReplyMessage, 184, {
         id @ 0 + 8, verdict @ 8 + 4, reason @ 12 + 4, effect_half_step @ 16 + 8, turn @ 24 + 8, speed @ 32 + 8,
         extension @ 40 + 8, sidestep @ 48 + 8, step_ahead @ 56 + 8, step_aside @ 64 + 8, velocity @ 72 + 24,
         intent @ 96 + 4, known @ 100 + 4, joint @ 104 + 4, source @ 108 + 4, value @ 112 + 8, limit @ 120 + 8,
         remaining @ 128 + 8, predicted_margin @ 136 + 8, mode @ 144 + 4, fault @ 148 + 4, fault_time @ 152 + 8,
-        cause @ 160 + 4, sensor @ 164 + 4,
+        cause @ 160 + 4, sensor @ 164 + 4, place @ 168 + 8, arrival @ 176 + 8,
     });
 }
 
 #[test]
 fn report_message_has_a_fixed_layout() {
-    assert_layout!(ReportMessage, 392, {
+    assert_layout!(ReportMessage, 416, {
         tick @ 0 + 8, time_ns @ 8 + 8, mode @ 16 + 4, support @ 20 + 4, half_step @ 24 + 8, progress @ 32 + 8,
         speed @ 40 + 8, turn @ 48 + 8, extension @ 56 + 8, sidestep @ 64 + 8, zmp_in_support @ 72 + 16,
         zmp_planned @ 88 + 16, margin @ 104 + 8, lean @ 112 + 16, added @ 128 + 32, com_in_support @ 160 + 24,
         com_velocity_in_support @ 184 + 24, com_planned @ 208 + 24, com_velocity_planned @ 232 + 24, pose @ 256 + 24,
         walk_velocity @ 280 + 24, support_sole @ 304 + 24, landing @ 328 + 24, landing_after @ 352 + 24,
-        faults @ 376 + 4, missed @ 380 + 4, compute_ns @ 384 + 8,
+        destination @ 376 + 4, destination_places_left @ 380 + 4, destination_distance @ 384 + 8,
+        destination_turn @ 392 + 8, faults @ 400 + 4, missed @ 404 + 4, compute_ns @ 408 + 8,
     });
 }

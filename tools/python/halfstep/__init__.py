@@ -4,6 +4,7 @@
     print(Operator("default").ask(turn_deg=15, speed=1.2))
 """
 
+from .destination import Footstep, Side, Waypoint
 from .errors import AlreadyRunning, BadName, HalfstepError, Mismatch, NoController, TimedOut
 from .instance import Instance
 from .messages import (
@@ -30,6 +31,7 @@ __all__ = [
     "Answer",
     "BadName",
     "Fault",
+    "Footstep",
     "HalfstepError",
     "Instance",
     "Intent",
@@ -45,8 +47,10 @@ __all__ = [
     "Report",
     "Request",
     "Setpoint",
+    "Side",
     "Source",
     "TimedOut",
     "Verdict",
+    "Waypoint",
     "stop",
 ]

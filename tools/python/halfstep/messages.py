@@ -9,7 +9,7 @@ from enum import IntEnum, IntFlag
 
 from .message import Message
 
-PROTOCOL = 5
+PROTOCOL = 6
 """The version of all layouts and meanings."""
 
 
@@ -71,7 +71,14 @@ class Reason(IntEnum):
     EXPIRED = 26  # it expired before it could take effect
     NOT_IN_STAND = 27  # the robot is not in a stand: put its feet side by side first
     SIDESTEP_LIMIT = 28  # the sidestep is outside the permitted range
-    CONTRADICTORY = 29  # a velocity goes with no gait parameters and with no intent but walk: ask for either
+    CONTRADICTORY = 29  # ask for one: gait parameters, a velocity or a destination; with a velocity or a destination goes no intent but walk
+    TOO_MANY_PLACES = 30  # more way-points or footsteps than can be given at a time
+    SAME_FOOT = 31  # the same foot cannot step twice: right and left take turns
+    STEP_TOO_FAR = 32  # the foot would land too far from the other one
+    FEET_CROSS = 33  # the feet would cross
+    STEP_TURN = 34  # the foot would be turned too far against the other one
+    NO_DESTINATION = 35  # the uncompensated gait walks to no destination
+    TOO_FAR = 36  # it is farther away than is permitted
 
 
 class Mode(IntEnum):
@@ -162,7 +169,7 @@ class Measurement(Message):
 
 
 class Request(Message):
-    """`halfstep.Request.v4`, 104 bytes."""
+    """`halfstep.Request.v5`, 696 bytes."""
 
     not_before: int
     present: int
@@ -174,6 +181,11 @@ class Request(Message):
     extension: float
     sidestep: float
     velocity: Array[c_double]
+    places: Array[c_double]
+    place_count: int
+    place_kind: int
+    place_frame: int
+    place_marks: int
     age_limit: float
     id: int
     expires_ns: int
@@ -189,6 +201,11 @@ class Request(Message):
         ("extension", c_double),
         ("sidestep", c_double),
         ("velocity", c_double * 3),
+        ("places", c_double * 72),
+        ("place_count", c_uint32),
+        ("place_kind", c_uint32),
+        ("place_frame", c_uint32),
+        ("place_marks", c_uint32),
         ("age_limit", c_double),
         ("id", c_uint64),
         ("expires_ns", c_uint64),
@@ -197,11 +214,11 @@ class Request(Message):
     @staticmethod
     def type_name() -> str:
         """What shared memory calls it."""
-        return "halfstep.Request.v4"
+        return "halfstep.Request.v5"
 
 
 class Reply(Message):
-    """`halfstep.Reply.v4`, 168 bytes."""
+    """`halfstep.Reply.v5`, 184 bytes."""
 
     id: int
     verdict: int
@@ -227,6 +244,8 @@ class Reply(Message):
     fault_time: float
     cause: int
     sensor: int
+    place: int
+    arrival: float
 
     _fields_ = [
         ("id", c_uint64),
@@ -253,16 +272,18 @@ class Reply(Message):
         ("fault_time", c_double),
         ("cause", c_uint32),
         ("sensor", c_uint32),
+        ("place", c_uint64),
+        ("arrival", c_double),
     ]
 
     @staticmethod
     def type_name() -> str:
         """What shared memory calls it."""
-        return "halfstep.Reply.v4"
+        return "halfstep.Reply.v5"
 
 
 class Report(Message):
-    """`halfstep.Report.v3`, 392 bytes."""
+    """`halfstep.Report.v4`, 416 bytes."""
 
     tick: int
     time_ns: int
@@ -288,6 +309,10 @@ class Report(Message):
     support_sole: Array[c_double]
     landing: Array[c_double]
     landing_after: Array[c_double]
+    destination: int
+    destination_places_left: int
+    destination_distance: float
+    destination_turn: float
     faults: int
     missed: int
     compute_ns: int
@@ -317,6 +342,10 @@ class Report(Message):
         ("support_sole", c_double * 3),
         ("landing", c_double * 3),
         ("landing_after", c_double * 3),
+        ("destination", c_uint32),
+        ("destination_places_left", c_uint32),
+        ("destination_distance", c_double),
+        ("destination_turn", c_double),
         ("faults", c_uint32),
         ("missed", c_uint32),
         ("compute_ns", c_uint64),
@@ -325,4 +354,4 @@ class Report(Message):
     @staticmethod
     def type_name() -> str:
         """What shared memory calls it."""
-        return "halfstep.Report.v3"
+        return "halfstep.Report.v4"

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import iceoryx2 as iox2
 
+from .destination import Footstep, Waypoint, write_destination
 from .errors import HalfstepError, NoController, TimedOut
 from .instance import Agreement, Instance
 from .messages import Fault, Intent, Lifetime, Reason, Reply, Report, Request, Source, Verdict
 
 _TURN, _SPEED, _EXTENSION, _INTENT, _SIDESTEP, _VELOCITY = 1, 2, 4, 8, 32, 64
-_MARGIN, _FAULT = 4, 8
+_MARGIN, _FAULT, _ARRIVAL = 4, 8, 64
 _GLANCE_S = 0.001
 
 
@@ -43,6 +44,10 @@ class Answer:
     """The mean velocity then: ahead, left [m/s], turning to the left [rad/s]."""
     predicted_margin: float | None
     """Least distance of the zero-moment point to the sole's edge foreseen for what was granted [m]."""
+    place: int | None
+    """The way-point or footstep that the reason is about, counted from 1."""
+    arrival: float | None
+    """Foreseen time until the robot stands at its destination [s]."""
     latched: Fault | None
     """The fault that keeps the robot from walking until a reset, if there is one."""
     latched_at: float | None
@@ -68,6 +73,8 @@ def answer(reply: Reply) -> Answer:
         reply.step_aside,
         (reply.velocity[0], reply.velocity[1], reply.velocity[2]),
         reply.predicted_margin if reply.known & _MARGIN else None,
+        reply.place or None,
+        reply.arrival if reply.known & _ARRIVAL else None,
         Fault(reply.fault) if reply.known & _FAULT else None,
         reply.fault_time if reply.known & _FAULT else None,
     )
@@ -112,6 +119,9 @@ class Operator:
         vx: float | None = None,
         vy: float | None = None,
         wz_deg_s: float | None = None,
+        goto: Waypoint | Sequence[Waypoint] | None = None,
+        footsteps: Sequence[Footstep] | None = None,
+        relative: bool = False,
         intent: Intent | None = None,
         not_before: int = 0,
         silence_s: float | None = None,
@@ -121,6 +131,12 @@ class Operator:
 
         Either gait parameters or a velocity, `vx` ahead and `vy` to the left [m/s] and `wz_deg_s` turning to the left [°/s];
         what is left out of a velocity is 0, and zero is a stand.
+
+        Or a destination: `goto` is a goal, or way-points of which the last is the goal; `footsteps` are soles, right and
+        left in turn; at most 24. They are in the walk frame (origin in the middle between the feet when the controller
+        started, x ahead, y to the left), with `relative` seen from the robot. With a destination goes no gait parameter
+        but speed, and no intent but to walk. The robot stands at the end: `Report.destination_places_left` is 0 then.
+        Whatever else moves the robot cancels it.
 
         `not_before` is the controller's tick before which it must not take effect: 0 is at once. With `silence_s` this
         program is in command from now on, those after it are refused, and the walk comes to a stand when it asks nothing
@@ -148,6 +164,9 @@ class Operator:
         if is_velocity:
             request.present |= _VELOCITY
             request.velocity[:] = [part or 0.0 for part in velocity]
+        is_walk = not is_velocity and all(value is None for value in (turn_deg, extension_deg, sidestep_deg))
+        if write_destination(request, goto, footsteps, relative) and not (is_walk and intent in (None, Intent.WALK)):
+            raise ValueError("with a destination goes no gait parameter but speed, and no intent but to walk")
         return self._wait(self._client.send_copy(request), timeout_s)
 
     def _wait(self, pending: Any, timeout_s: float) -> Answer:

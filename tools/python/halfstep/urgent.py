@@ -37,7 +37,7 @@ def stop(instance: Instance | str = "default", intent: Intent = Intent.STOP, tim
             # Through the opened folder: its own path may be too long for a socket.
             own.connect(f"/proc/self/fd/{folder}/urgent")
             own.send(_HEAD.pack(PROTOCOL) + bytes(request))
-            received = own.recv(256)
+            received = own.recv(1024)
     except TimeoutError as cause:
         raise TimedOut(f"no answer within {timeout_s} s") from cause
     except (FileNotFoundError, ConnectionError) as cause:

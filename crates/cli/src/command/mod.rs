@@ -1,10 +1,12 @@
 //! The commands, one per file.
 
+mod arrival;
 mod bench;
 mod check;
 mod config_options;
 mod connect;
 mod controller;
+mod destination;
 mod engine;
 mod export;
 mod import;

@@ -1,4 +1,4 @@
-//! `halfstep send`: sends one request, and prints the reply.
+//! `halfstep send`: sends one request, and prints the reply; waits for the arrival at a destination if it is asked to.
 //!
 //! The request stays in effect until another one changes it, and holds no authority; with `--for` it holds authority
 //! for that time, after which the robot stops.
@@ -11,7 +11,9 @@ use operator::reply_text::{ReplyJson, reply_text};
 use runtime::now_ns;
 use wire::{Instance, OperatorPorts, ReplyMessage, UrgentClient};
 
+use super::arrival::Arrival;
 use super::connect::patiently;
+use super::destination::{FootstepsArgs, GotoArgs};
 use super::options::{InstanceOption, command_timeout, number};
 use crate::error::CliError;
 use crate::output::{print_json, print_line};
@@ -31,7 +33,7 @@ pub(super) struct SendArgs {
     request: RequestKind,
 }
 
-#[derive(Clone, Copy, Debug, Subcommand)]
+#[derive(Clone, Debug, Subcommand)]
 enum RequestKind {
     /// Set the change of heading per full step
     #[command(allow_negative_numbers = true)]
@@ -74,6 +76,8 @@ enum RequestKind {
         #[arg(value_parser = number, value_name = "WZ", default_value_t = 0.0)]
         turn: f64,
     },
+    Goto(GotoArgs),
+    Footsteps(FootstepsArgs),
     /// Start walking, or walk on
     Walk,
     /// Step in place, turning if a turn is in effect
@@ -93,22 +97,28 @@ const REPLY_TIMEOUT: Duration = Duration::from_millis(2500);
 
 impl SendArgs {
     pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
+        let request = self.request.message()?;
         let request = match self.duration {
-            None => self.request.message(),
-            Some(duration) => Request {
-                lifetime: Lifetime::Streamed,
-                timeout: Some(duration.as_secs_f64()),
-                ..self.request.message()
-            },
+            None => request,
+            Some(duration) => {
+                Request { lifetime: Lifetime::Streamed, timeout: Some(duration.as_secs_f64()), ..request }
+            }
         };
+        let instance = self.instance.instance()?;
+        let arrival = if self.request.waits() { Some(Arrival::listen(&instance)?) } else { None };
         let request = Request { expires_ns: Some(now_ns() + EXPIRY.as_nanos() as u64), ..request };
-        let reply = ask(&self.instance.instance()?, &request)?.checked().map_err(CliError::new)?;
+        let reply = ask(&instance, &request)?.checked().map_err(CliError::new)?;
+        let granted_ns = now_ns();
         if json {
             print_json(&ReplyJson::from(&reply))?;
         } else {
             print_line(reply_text(&request, &reply))?;
         }
-        Ok(Status::success_if(reply.verdict != Verdict::Refused))
+        match arrival {
+            _ if reply.verdict == Verdict::Refused => Ok(Status::Failure),
+            None => Ok(Status::Success),
+            Some(arrival) => arrival.wait(granted_ns, json),
+        }
     }
 }
 
@@ -124,11 +134,24 @@ fn ask(instance: &Instance, request: &Request) -> Result<ReplyMessage, CliError>
 }
 
 impl RequestKind {
-    fn message(self) -> Request {
+    /// Whether the end of the walk is to be waited for.
+    fn waits(&self) -> bool {
+        match self {
+            RequestKind::Goto(goto) => goto.way().wait,
+            RequestKind::Footsteps(footsteps) => footsteps.way().wait,
+            _ => false,
+        }
+    }
+
+    /// The request.
+    ///
+    /// # Errors
+    /// Its file cannot be read.
+    fn message(&self) -> Result<Request, CliError> {
         let nothing = Request::new(Source::Console);
         let change = |gait| Request { gait, ..nothing };
         let intent = |intent| Request { intent: Some(intent), ..nothing };
-        match self {
+        Ok(match *self {
             RequestKind::Turn { degrees } => {
                 change(GaitChange { turn: Some(degrees.to_radians()), ..GaitChange::NONE })
             }
@@ -142,11 +165,13 @@ impl RequestKind {
             RequestKind::Velocity { ahead, left, turn } => {
                 Request { velocity: Some(WalkVelocity { ahead, left, turn: turn.to_radians() }), ..nothing }
             }
+            RequestKind::Goto(ref goto) => goto.request(),
+            RequestKind::Footsteps(ref footsteps) => footsteps.request()?,
             RequestKind::Walk => intent(Intent::Walk),
             RequestKind::InPlace => intent(Intent::InPlace),
             RequestKind::Stop => intent(Intent::Stop),
             RequestKind::Hold => intent(Intent::Hold),
             RequestKind::Reset => intent(Intent::Reset),
-        }
+        })
     }
 }

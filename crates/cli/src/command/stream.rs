@@ -27,7 +27,9 @@ use crate::status::Status;
 #[command(after_help = "Each line is a JSON object such as {\"t\":1.5,\"turn_deg\":10,\"speed\":1.2,\
 \"extension_deg\":0,\"intent\":\"stop\"}. t is the controller's time since the stream began, in seconds; without t the \
 line is sent at once. All other keys are optional; {\"vx\":0.3,\"vy\":-0.1,\"wz_deg_s\":15} is a velocity in m/s and \
-degrees per second instead. A wrong line is reported with its number, and the stream \
+degrees per second instead, {\"goto\":{\"x_m\":3,\"y_m\":2,\"heading_deg\":90}} a goal (or an array of way-points to \
+it), {\"footsteps\":[{\"side\":\"left\",\"x_m\":0.2,\"y_m\":0.1,\"heading_deg\":0}]} footsteps; with \
+\"relative\":true these are seen from the robot. A wrong line is reported with its number, and the stream \
 continues.\n\n\
 Lines without t that arrive faster than they are answered are passed over for a newer one that sets the same keys: \
 the newest position of a stick counts. A stop overtakes everything, and takes the place of all lines before it that \

@@ -94,9 +94,10 @@ impl Controller {
     /// Takes an evaluated job back, between two ticks. The controller adopts its plan if that is still one for the
     /// present; else the job has to be evaluated again.
     pub fn complete(&mut self, job: Box<AdmissionJob>) {
+        let localization = self.localization();
         let Pattern::Planned(generator) = &mut self.pattern else { return self.admission.finish(job, None) };
         if self.admission.is_cancelled() {
-            return self.admission.finish(job, Some(generator));
+            return self.admission.finish(job, Some((generator, &localization)));
         }
         let refusal = match self.state.latched() {
             Some(Fault::Fallen) => Some(Reason::Fallen),
@@ -108,7 +109,7 @@ impl Controller {
             self.admission.reply(self.refused(reason));
         } else {
             let Some((plan, decision)) = job.decided_for(generator) else {
-                return self.admission.reopen(job, generator);
+                return self.admission.reopen(job, generator, &localization);
             };
             if decision.verdict == Verdict::Refused {
                 generator.cancel_speed_override();
@@ -123,13 +124,17 @@ impl Controller {
 
     /// Decides on a request that may change the walk: at once, or by a job where the walk is planned.
     fn evaluate(&mut self, request: &Request) {
+        let localization = self.localization();
         match &mut self.pattern {
+            Pattern::Uncompensated(_) if request.destination.is_some() => {
+                self.admission.reply(self.refused(Reason::NoDestination));
+            }
             Pattern::Planned(generator) => {
                 // A robot that is to stop does not hurry before.
-                if self.state.intent().steps() {
+                if self.state.intent().steps() && request.destination.is_none() {
                     generator.override_speed(&request.gait);
                 }
-                self.admission.open(generator, request);
+                self.admission.open(generator, &localization, request);
             }
             Pattern::Uncompensated(gait) => {
                 let limits = gait.walk().limits();

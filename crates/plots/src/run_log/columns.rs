@@ -1,6 +1,6 @@
 //! Writes fields that are more than a number as columns of a CSV file; for serde's `serialize_with`.
 
-use interface::{AddedAngles, WalkPose};
+use interface::{AddedAngles, DestinationProgress, WalkPose};
 use model::{ComState, JointVector};
 use nalgebra::{Isometry3, Vector2, Vector3};
 use serde::{Serialize, Serializer};
@@ -46,6 +46,16 @@ pub(super) fn degrees<S: Serializer>(angle: &f64, serializer: S) -> Result<S::Ok
 /// A pose on the floor as x, y (m) and heading (rad).
 pub(super) fn walk_pose<S: Serializer>(pose: &WalkPose, serializer: S) -> Result<S::Ok, S::Error> {
     [pose.x, pose.y, pose.heading].serialize(serializer)
+}
+
+/// Places left, distance (m) and turn in degrees, all empty without a destination.
+pub(super) fn destination<S: Serializer>(
+    progress: &Option<DestinationProgress>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    let left = progress.map(|progress| progress.places_left);
+    let numbers = progress.map(|progress| (progress.distance, progress.turn.to_degrees()));
+    (left, numbers.map(|(distance, _)| distance), numbers.map(|(_, turn)| turn)).serialize(serializer)
 }
 
 /// A flag as 0 or 1, which a spreadsheet can plot.

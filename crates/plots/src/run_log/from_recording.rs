@@ -30,6 +30,7 @@ pub(super) fn of_controller(time: f64, tick: &TickMessage, timing: &PeriodTiming
         com_planned: report.com_planned,
         com_measured: report.com_measured,
         walk_pose: report.odometry.pose,
+        destination: report.destination,
         faults: report.faults.0,
         compute_ns: timing.compute_ns,
         missed: timing.missed,

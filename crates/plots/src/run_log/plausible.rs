@@ -1,6 +1,7 @@
 //! Which rows can be measured and drawn: those whose numbers are finite, and not so large that something must have gone
 //! wrong before they were recorded.
 
+use interface::DestinationProgress;
 use nalgebra::Vector2;
 
 use super::{ControllerRow, PlantRow};
@@ -38,6 +39,8 @@ impl ControllerRow {
         self.zmp_planned = near(self.zmp_planned);
         self.margin = self.margin.filter(|margin| within(FAR, [margin]));
         self.added = self.added.filter(|added| within(LARGE, added.ankle.iter().chain(added.waist.iter())));
+        let near_goal = |goal: &DestinationProgress| within(FAR, [&goal.distance]) && within(LARGE, [&goal.turn]);
+        self.destination = self.destination.filter(near_goal);
         for com in [&mut self.com_planned, &mut self.com_measured] {
             *com = com.filter(|com| within(FAR, com.position.iter().chain(com.velocity.iter())));
         }

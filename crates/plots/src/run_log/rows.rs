@@ -1,6 +1,6 @@
 //! Rows of the log: the plant and the controller at one tick.
 
-use interface::{AddedAngles, WalkPose};
+use interface::{AddedAngles, DestinationProgress, WalkPose};
 use model::{ComState, Joint, JointVector, Side};
 use nalgebra::{Isometry3, Vector2, Vector3};
 use serde::Serialize;
@@ -102,6 +102,9 @@ pub struct ControllerRow {
     /// The middle between both soles in the walk frame, as the controller estimates it (m, rad).
     #[serde(serialize_with = "columns::walk_pose")]
     pub walk_pose: WalkPose,
+    /// How far the walk to a destination has come (m, rad; in degrees in the file); `None` without one.
+    #[serde(serialize_with = "columns::destination")]
+    pub destination: Option<DestinationProgress>,
     /// One bit for each fault present.
     pub faults: u32,
     /// Computing time of the tick (ns).
@@ -152,8 +155,11 @@ impl CsvRow for ControllerRow {
         let com = ["planned", "measured"].into_iter().flat_map(|which| {
             ["x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s"].map(|component| format!("com_{which}_{component}"))
         });
-        let health = ["walk_x_m", "walk_y_m", "walk_heading_rad", "faults", "compute_ns", "missed"].map(String::from);
+        let walk = ["walk_x_m", "walk_y_m", "walk_heading_rad"];
+        let goal = ["destination_places_left", "destination_distance_m", "destination_turn_deg"];
+        let health = ["faults", "compute_ns", "missed"];
+        let after = walk.into_iter().chain(goal).chain(health).map(String::from);
         let before = place.into_iter().chain(command).chain(balance).chain(lean).map(String::from);
-        before.chain(added).chain(com).chain(health).collect()
+        before.chain(added).chain(com).chain(after).collect()
     }
 }

@@ -58,6 +58,7 @@ pub(crate) fn log(half_steps: u64, turn: f64) -> RunLog {
             com_planned: None,
             com_measured: None,
             walk_pose: WalkPose::default(),
+            destination: None,
             faults: 0,
             compute_ns: 1234,
             missed: 0,

@@ -1,5 +1,6 @@
 //! What can be wrong with a message.
 
+use interface::PLACES_MAX;
 use model::{Joint, JointVector, PerJoint};
 
 /// Why a message is refused. `Copy`, so that it can travel through a journal.
@@ -36,6 +37,26 @@ pub enum MessageFault {
         joint: Joint,
         /// What stands there.
         value: f64,
+    },
+    /// A number of a way-point or footstep is NaN or infinite.
+    #[error("{message}: place {place}: {field} is {value}; it must be finite")]
+    PlaceNotFinite {
+        /// Which message.
+        message: &'static str,
+        /// Which place of its destination, counted from 1.
+        place: u32,
+        /// Which of the place's numbers.
+        field: &'static str,
+        /// What stands there.
+        value: f64,
+    },
+    /// A destination without places, or with too many.
+    #[error("{message}: place_count is {value}; there must be 1 to {PLACES_MAX} places")]
+    PlaceCount {
+        /// Which message.
+        message: &'static str,
+        /// What stands there.
+        value: u32,
     },
     /// A code that means nothing.
     #[error("{message}: {field} is {value}; known are {known}")]

@@ -9,6 +9,7 @@
 //! Any change of a layout gets a new `.vN` in the type name **and** a new [`PROTOCOL`](crate::PROTOCOL).
 
 mod fault;
+mod flat_places;
 mod measurement;
 mod reply;
 mod report;

@@ -2,8 +2,8 @@
 
 use iceoryx2::prelude::ZeroCopySend;
 use interface::{
-    ActiveLimit, Command, ControlAuthority, Intent, LatchedFault, Mode, Rejection, Reply, Sensor, SteadyWalk,
-    WalkVelocity,
+    ActiveLimit, Command, ControlAuthority, Intent, LatchedFault, Mode, PLACES_MAX, Rejection, Reply, Sensor,
+    SteadyWalk, WalkVelocity,
 };
 use model::Joint;
 
@@ -12,7 +12,7 @@ use super::fault::Check;
 
 /// A [`Reply`] as it lies in shared memory.
 #[derive(Clone, Copy, Debug, PartialEq, ZeroCopySend)]
-#[type_name("halfstep.Reply.v4")]
+#[type_name("halfstep.Reply.v5")]
 #[repr(C)]
 pub struct ReplyMessage {
     /// The request's `id`.
@@ -42,7 +42,7 @@ pub struct ReplyMessage {
     /// Which of the following are known: [`BOUND`](Self::BOUND) is `joint`, `value` and `limit`,
     /// [`IN_COMMAND`](Self::IN_COMMAND) is `source` and `remaining`, [`MARGIN`](Self::MARGIN) is `predicted_margin`,
     /// [`FAULT`](Self::FAULT) is `fault` and `fault_time`, [`MODE`](Self::MODE) is `mode`, [`CAUSE`](Self::CAUSE) is
-    /// `cause` and `sensor`.
+    /// `cause` and `sensor`, [`ARRIVAL`](Self::ARRIVAL) is `arrival`.
     pub known: u32,
     /// The joint whose limit is active, by the paper's number, 1 to 20; 0 if it is no joint's.
     pub joint: u32,
@@ -66,6 +66,10 @@ pub struct ReplyMessage {
     pub cause: u32,
     /// The [`Sensor`](interface::Sensor) that it names.
     pub sensor: u32,
+    /// The way-point or footstep that the reason is about, counted from 1; 0 if it is about none.
+    pub place: u64,
+    /// Foreseen time until the robot stands at its destination (s).
+    pub arrival: f64,
 }
 
 impl ReplyMessage {
@@ -81,6 +85,8 @@ impl ReplyMessage {
     pub const MODE: u32 = 16;
     /// In `known`: `cause` and `sensor`.
     pub const CAUSE: u32 = 32;
+    /// In `known`: `arrival`.
+    pub const ARRIVAL: u32 = 64;
 
     /// The reply, if its codes are known and every number that is known is finite.
     pub fn checked(&self) -> Result<Reply, MessageFault> {
@@ -90,13 +96,14 @@ impl ReplyMessage {
             | ReplyMessage::MARGIN
             | ReplyMessage::FAULT
             | ReplyMessage::MODE
-            | ReplyMessage::CAUSE;
+            | ReplyMessage::CAUSE
+            | ReplyMessage::ARRIVAL;
         let unknown = |field, value, known| MessageFault::UnknownCode { message: check.0, field, value, known };
         if self.known & !ALL != 0 {
             return Err(unknown(
                 "known",
                 self.known,
-                "sums of 1 (bound), 2 (in command), 4 (margin), 8 (fault), 16 (mode) and 32 (cause)",
+                "sums of 1 (bound), 2 (in command), 4 (margin), 8 (fault), 16 (mode), 32 (cause) and 64 (arrival)",
             ));
         }
         let knows = |bit| self.known & bit != 0;
@@ -104,6 +111,11 @@ impl ReplyMessage {
             Some((0, _)) => Ok(None),
             Some((_, Some(joint))) => Ok(Some(joint)),
             _ => Err(unknown("joint", self.joint, "0 (none) and 1 to 20")),
+        };
+        let place = || match u32::try_from(self.place).unwrap_or(u32::MAX) {
+            0 => Ok(None),
+            place if place as usize <= PLACES_MAX => Ok(Some(place)),
+            place => Err(unknown("place", place, "0 (none) and 1 to 24")),
         };
         let active_limit = || {
             let (value, limit) = (check.number("value", self.value)?, check.number("limit", self.limit)?);
@@ -146,6 +158,8 @@ impl ReplyMessage {
             },
             intent: if self.intent == 0 { None } else { Some(check.code("intent", self.intent)?) },
             active_limit: knows(Self::BOUND).then(active_limit).transpose()?,
+            place: place()?,
+            arrival: knows(Self::ARRIVAL).then(|| check.not_negative("arrival", self.arrival)).transpose()?,
             authority: knows(Self::IN_COMMAND).then(authority).transpose()?,
             predicted_margin: knows(Self::MARGIN).then(margin).transpose()?,
             mode: knows(Self::MODE).then(mode).transpose()?,
@@ -156,7 +170,7 @@ impl ReplyMessage {
 
 impl From<&Reply> for ReplyMessage {
     fn from(reply: &Reply) -> Self {
-        let Reply { active_limit, authority, predicted_margin, mode, latched, .. } = reply;
+        let Reply { active_limit, arrival, authority, predicted_margin, mode, latched, .. } = reply;
         let cause = latched.and_then(|latched| latched.cause);
         let bit = |present: bool, bit: u32| if present { bit } else { 0 };
         Self {
@@ -177,7 +191,8 @@ impl From<&Reply> for ReplyMessage {
                 | bit(predicted_margin.is_some(), Self::MARGIN)
                 | bit(latched.is_some(), Self::FAULT)
                 | bit(mode.is_some(), Self::MODE)
-                | bit(cause.is_some(), Self::CAUSE),
+                | bit(cause.is_some(), Self::CAUSE)
+                | bit(arrival.is_some(), Self::ARRIVAL),
             joint: active_limit.and_then(|limit| limit.joint).map_or(0, |joint| joint.number().into()),
             source: authority.map_or(0, |authority| authority.source.code()),
             value: active_limit.map_or(0.0, |limit| limit.value),
@@ -189,6 +204,8 @@ impl From<&Reply> for ReplyMessage {
             fault_time: latched.map_or(0.0, |latched| latched.time),
             cause: cause.map_or(0, |cause| cause.fault.code()),
             sensor: cause.map_or(0, |cause| cause.sensor.code()),
+            place: reply.place.map_or(0, u64::from),
+            arrival: arrival.unwrap_or(0.0),
         }
     }
 }
@@ -215,6 +232,8 @@ mod tests {
             Reply { verdict: Verdict::Limited, reason: Reason::JointRate, active_limit: Some(rate), ..plain },
             Reply { reason: Reason::Margin, active_limit: Some(ActiveLimit { joint: None, ..rate }), ..plain },
             Reply { reason: Reason::Outranked, authority: Some(authority), ..plain },
+            Reply { reason: Reason::FeetCross, active_limit: Some(rate), place: Some(24), ..plain },
+            Reply { verdict: Verdict::Accepted, reason: Reason::None, arrival: Some(12.5), ..plain },
             Reply { id: 9, reason: Reason::Faulted, mode: Some(Mode::Faulted), latched: Some(latched), ..plain },
         ] {
             assert_eq!(ReplyMessage::from(&reply).checked(), Ok(reply));
@@ -235,11 +254,14 @@ mod tests {
         assert_eq!(text(ReplyMessage { value: f64::NAN, ..full }), "reply: value is NaN; it must be finite");
         assert_eq!(text(ReplyMessage { joint: 21, ..full }), "reply: joint is 21; known are 0 (none) and 1 to 20");
         assert_eq!(text(ReplyMessage { joint: 257, ..full }), "reply: joint is 257; known are 0 (none) and 1 to 20");
+        assert_eq!(text(ReplyMessage { place: 25, ..full }), "reply: place is 25; known are 0 (none) and 1 to 24");
+        let late = ReplyMessage { known: ReplyMessage::ARRIVAL, arrival: f64::NAN, ..full };
+        assert_eq!(text(late), "reply: arrival is NaN; it must be finite");
         assert!(text(ReplyMessage { source: 9, ..full }).starts_with("reply: source is 9; known are 0 (console)"));
         assert_eq!(text(ReplyMessage { remaining: -1.0, ..full }), "reply: remaining is -1; it must be at least 0");
         assert!(text(ReplyMessage { predicted_margin: f64::INFINITY, ..full }).starts_with("reply: predicted_margin"));
         assert!(
-            text(ReplyMessage { known: 64, ..full }).starts_with("reply: known is 64; known are sums of 1 (bound)")
+            text(ReplyMessage { known: 128, ..full }).starts_with("reply: known is 128; known are sums of 1 (bound)")
         );
     }
 
@@ -270,6 +292,8 @@ mod tests {
             fault_time: 0.0,
             cause: 0,
             sensor: 0,
+            place: 0,
+            arrival: 0.0,
         };
         assert!(zero.checked().unwrap_err().to_string().starts_with("reply: verdict is 0; known are 1 (accepted)"));
     }

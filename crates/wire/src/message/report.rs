@@ -1,7 +1,9 @@
 //! Report, controller → anyone: the state of the controller after a period.
 
 use iceoryx2::prelude::ZeroCopySend;
-use interface::{AddedAngles, Faults, HalfStep, Odometry, PeriodTiming, Report, WalkPose, WalkVelocity};
+use interface::{
+    AddedAngles, DestinationProgress, Faults, HalfStep, Odometry, PeriodTiming, Report, WalkPose, WalkVelocity,
+};
 use model::{ComState, Side};
 
 use super::MessageFault;
@@ -9,7 +11,7 @@ use super::fault::Check;
 
 /// A [`Report`] as it lies in shared memory.
 #[derive(Clone, Copy, Debug, PartialEq, ZeroCopySend)]
-#[type_name("halfstep.Report.v3")]
+#[type_name("halfstep.Report.v4")]
 #[repr(C)]
 pub struct ReportMessage {
     /// Periods since the controller started.
@@ -61,6 +63,14 @@ pub struct ReportMessage {
     pub landing: [f64; 3],
     /// Where the support foot is to land after it, likewise.
     pub landing_after: [f64; 3],
+    /// Whether there is a destination: 0 no, 1 yes.
+    pub destination: u32,
+    /// Way-points or footsteps still to come; 0 once the robot has arrived.
+    pub destination_places_left: u32,
+    /// From the pose to the last place, as the crow flies (m).
+    pub destination_distance: f64,
+    /// Heading of the last place against the robot's (rad), within ±π; 0 if any will do.
+    pub destination_turn: f64,
     /// The [`Faults`] present.
     pub faults: u32,
     /// Deadlines missed since the start.
@@ -75,6 +85,7 @@ impl ReportMessage {
         let com = |com: Option<ComState>| {
             com.map_or([[f64::NAN; 3]; 2], |ComState { position, velocity }| [position.into(), velocity.into()])
         };
+        let DestinationProgress { places_left, distance, turn } = report.destination.unwrap_or_default();
         let [com_planned, com_velocity_planned] = com(report.com_planned);
         let [com_in_support, com_velocity_in_support] = com(report.com_measured);
         Self {
@@ -111,6 +122,10 @@ impl ReportMessage {
             support_sole: pose_numbers(&report.odometry.support_sole),
             landing: pose_numbers(&report.odometry.landings[0]),
             landing_after: pose_numbers(&report.odometry.landings[1]),
+            destination: report.destination.is_some().into(),
+            destination_places_left: places_left,
+            destination_distance: distance,
+            destination_turn: turn,
             faults: report.faults.0,
             missed: u32::try_from(timing.missed).unwrap_or(u32::MAX),
             compute_ns: timing.compute_ns,
@@ -154,6 +169,7 @@ impl ReportMessage {
             com_planned: com("com_planned", &self.com_planned, &self.com_velocity_planned)?,
             com_measured: com("com_in_support", &self.com_in_support, &self.com_velocity_in_support)?,
             odometry: self.odometry(&check)?,
+            destination: self.destination_progress(&check)?,
             faults: Faults(self.faults),
         })
     }
@@ -168,6 +184,21 @@ impl ReportMessage {
             support_sole: pose("support_sole", &self.support_sole)?,
             landings: [pose("landing", &self.landing)?, pose("landing_after", &self.landing_after)?],
         })
+    }
+
+    fn destination_progress(&self, check: &Check) -> Result<Option<DestinationProgress>, MessageFault> {
+        match self.destination {
+            0 => Ok(None),
+            1 => Ok(Some(DestinationProgress {
+                places_left: self.destination_places_left,
+                distance: check.not_negative("destination_distance", self.destination_distance)?,
+                turn: check.number("destination_turn", self.destination_turn)?,
+            })),
+            value => {
+                let (field, known) = ("destination", "0 (no) 1 (yes)");
+                Err(MessageFault::UnknownCode { message: check.0, field, value, known })
+            }
+        }
     }
 
     /// How the control loop kept its time in the period.
@@ -219,6 +250,7 @@ mod tests {
                 support_sole: WalkPose { x: 1.1, y: 2.1, heading: 3.1 },
                 landings: [WalkPose { x: 1.2, y: 2.2, heading: 3.2 }, WalkPose { x: 1.3, y: 2.3, heading: 3.3 }],
             },
+            destination: Some(DestinationProgress { places_left: 3, distance: 1.2, turn: -0.5 }),
             faults: [Fault::InTheAir, Fault::DeadlineMissed].into_iter().collect(),
         };
         let unknown = Report {
@@ -228,6 +260,7 @@ mod tests {
             added: None,
             com_planned: None,
             com_measured: None,
+            destination: None,
             ..known
         };
         let timing = PeriodTiming { tick: 1, time_ns: 2, missed: 4, compute_ns: 5 };
@@ -264,6 +297,10 @@ mod tests {
             support_sole: [0.0; 3],
             landing: [0.0; 3],
             landing_after: [0.0; 3],
+            destination: 0,
+            destination_places_left: 0,
+            destination_distance: 0.0,
+            destination_turn: 0.0,
             faults: 0,
             missed: 0,
             compute_ns: 0,
@@ -271,5 +308,11 @@ mod tests {
         assert_eq!(report.checked().unwrap_err().to_string(), "report: zmp_in_support is NaN; it must be finite");
         let text = ReportMessage { support: 2, ..report }.checked().unwrap_err().to_string();
         assert_eq!(text, "report: support is 2; known are 0 (right) 1 (left)");
+        let whole = ReportMessage { zmp_in_support: [0.0; 2], destination_distance: f64::NAN, ..report };
+        assert_eq!(whole.checked().map(|report| report.destination), Ok(None));
+        let text = ReportMessage { destination: 1, ..whole }.checked().unwrap_err().to_string();
+        assert_eq!(text, "report: destination_distance is NaN; it must be finite");
+        let text = ReportMessage { destination: 2, ..whole }.checked().unwrap_err().to_string();
+        assert_eq!(text, "report: destination is 2; known are 0 (no) 1 (yes)");
     }
 }

@@ -5,17 +5,19 @@ use interface::{GaitChange, Intent, Lifetime, Request, WalkVelocity};
 
 use super::MessageFault;
 use super::fault::Check;
+use super::flat_places::FlatPlaces;
 
 /// A [`Request`] as it lies in shared memory.
 #[derive(Clone, Copy, Debug, PartialEq, ZeroCopySend)]
-#[type_name("halfstep.Request.v4")]
+#[type_name("halfstep.Request.v5")]
 #[repr(C)]
 pub struct RequestMessage {
     /// The controller's tick before which it must not take effect; 0 is at once.
     pub not_before: u64,
     /// Which of the following are asked for: [`TURN`](Self::TURN), [`SPEED`](Self::SPEED),
     /// [`EXTENSION`](Self::EXTENSION), [`INTENT`](Self::INTENT), [`SIDESTEP`](Self::SIDESTEP),
-    /// [`VELOCITY`](Self::VELOCITY); what is not stays as it is. And [`MORE`](Self::MORE).
+    /// [`VELOCITY`](Self::VELOCITY), [`DESTINATION`](Self::DESTINATION); what is not stays as it is. And
+    /// [`MORE`](Self::MORE).
     pub present: u32,
     /// An [`Intent`].
     pub intent: u32,
@@ -33,6 +35,17 @@ pub struct RequestMessage {
     pub sidestep: f64,
     /// The velocity to walk at: ahead, left (m/s), turning to the left (rad/s).
     pub velocity: [f64; 3],
+    /// The places of the destination: x, y (m), heading (rad) of each.
+    pub places: [f64; 72],
+    /// How many places there are, 1 to [`PLACES_MAX`](interface::PLACES_MAX); the others are ignored.
+    pub place_count: u32,
+    /// What the places are: 0 way-points, 1 footsteps.
+    pub place_kind: u32,
+    /// The frame of the places: 0 the walk frame, 1 the robot's own.
+    pub place_frame: u32,
+    /// A bit for each place, the first one's is 1: of a way-point, whether its heading is given; of a footstep, whether
+    /// it is the left foot's.
+    pub place_marks: u32,
     /// Command timeout of a streamed request (s), 0 for the controller's own.
     pub age_limit: f64,
     /// A number of the sender's choice, which the reply repeats.
@@ -57,6 +70,8 @@ impl RequestMessage {
     pub const SIDESTEP: u32 = 32;
     /// In `present`: `velocity` is asked for, instead of gait parameters.
     pub const VELOCITY: u32 = 64;
+    /// In `present`: the places are the destination.
+    pub const DESTINATION: u32 = 128;
 
     /// The request, if its codes are known, every number that is present is finite, and the age limit is not negative.
     pub fn checked(&self) -> Result<Request, MessageFault> {
@@ -67,10 +82,11 @@ impl RequestMessage {
             | RequestMessage::INTENT
             | RequestMessage::MORE
             | RequestMessage::SIDESTEP
-            | RequestMessage::VELOCITY;
+            | RequestMessage::VELOCITY
+            | RequestMessage::DESTINATION;
         if self.present & !ALL != 0 {
-            let known = "sums of 1 (turn), 2 (speed), 4 (extension), 8 (intent), 16 (more), 32 (sidestep) and 64 \
-                         (velocity)";
+            let known = "sums of 1 (turn), 2 (speed), 4 (extension), 8 (intent), 16 (more), 32 (sidestep), 64 \
+                         (velocity) and 128 (destination)";
             let field = "present";
             return Err(MessageFault::UnknownCode { message: check.0, field, value: self.present, known });
         }
@@ -98,11 +114,21 @@ impl RequestMessage {
             } else {
                 None
             },
+            destination: if self.present & Self::DESTINATION != 0 {
+                Some(self.flat_places().checked(&check)?)
+            } else {
+                None
+            },
             lifetime,
             timeout: timeout.filter(|&timeout| timeout > 0.0),
             id: self.id,
             expires_ns: (self.expires_ns != 0).then_some(self.expires_ns),
         })
+    }
+
+    fn flat_places(&self) -> FlatPlaces {
+        let Self { places, place_count: count, place_kind: kind, place_frame: frame, place_marks: marks, .. } = *self;
+        FlatPlaces { places, count, kind, frame, marks }
     }
 }
 
@@ -110,6 +136,8 @@ impl From<&Request> for RequestMessage {
     fn from(request: &Request) -> Self {
         let bit = |present: bool, bit: u32| if present { bit } else { 0 };
         let GaitChange { turn, speed, extension, sidestep } = request.gait;
+        let FlatPlaces { places, count, kind, frame, marks } =
+            request.destination.as_ref().map_or(FlatPlaces::NONE, Into::into);
         Self {
             not_before: request.not_before,
             present: bit(turn.is_some(), Self::TURN)
@@ -117,6 +145,7 @@ impl From<&Request> for RequestMessage {
                 | bit(extension.is_some(), Self::EXTENSION)
                 | bit(sidestep.is_some(), Self::SIDESTEP)
                 | bit(request.velocity.is_some(), Self::VELOCITY)
+                | bit(request.destination.is_some(), Self::DESTINATION)
                 | bit(request.intent.is_some(), Self::INTENT),
             intent: request.intent.map_or(0, Intent::code),
             source: request.source.code(),
@@ -126,6 +155,11 @@ impl From<&Request> for RequestMessage {
             extension: extension.unwrap_or(0.0),
             sidestep: sidestep.unwrap_or(0.0),
             velocity: request.velocity.map_or([0.0; 3], |velocity| [velocity.ahead, velocity.left, velocity.turn]),
+            places,
+            place_count: count,
+            place_kind: kind,
+            place_frame: frame,
+            place_marks: marks,
             age_limit: request.timeout.unwrap_or(0.0),
             id: request.id,
             expires_ns: request.expires_ns.unwrap_or(0),
@@ -135,7 +169,8 @@ impl From<&Request> for RequestMessage {
 
 #[cfg(test)]
 mod tests {
-    use interface::Source;
+    use interface::{Destination, Footstep, PlaceFrame, PlaceList, Places, Source, WalkPose};
+    use model::Side;
 
     use super::*;
 
@@ -152,6 +187,21 @@ mod tests {
     fn id_and_expiry_survive_the_message() {
         let request = Request { id: 7, expires_ns: Some(12), ..Request::new(Source::Program) };
         assert_eq!(RequestMessage::from(&request).checked(), Ok(request));
+    }
+
+    #[test]
+    fn a_destination_survives_the_message_and_is_checked_if_there_is_one() {
+        let footstep = Footstep { side: Side::Left, sole: WalkPose { x: 0.3, y: 0.1, heading: 0.2 } };
+        let places = Places::Footsteps(PlaceList::new(&[footstep]).unwrap());
+        let destination = Some(Destination { frame: PlaceFrame::Robot, places });
+        let request = Request { destination, ..Request::new(Source::Console) };
+        let message = RequestMessage::from(&request);
+        assert_eq!(message.checked(), Ok(request));
+        let mut odd = RequestMessage { place_count: 2, ..message };
+        odd.places[3] = f64::NAN;
+        assert_eq!(odd.checked().unwrap_err().to_string(), "request: place 2: x is NaN; it must be finite");
+        let absent = RequestMessage { present: 0, place_kind: 9, ..odd };
+        assert_eq!(absent.checked(), Ok(Request::new(Source::Console)));
     }
 
     #[test]
@@ -186,6 +236,6 @@ mod tests {
         let aged = |age_limit| text(RequestMessage { age_limit, ..stream });
         assert_eq!(aged(-1.0), "request: age_limit is -1; it must be at least 0");
         assert_eq!(aged(f64::INFINITY), "request: age_limit is inf; it must be finite");
-        assert!(text(RequestMessage { present: 128, ..good }).starts_with("request: present is 128; known are sums"));
+        assert!(text(RequestMessage { present: 256, ..good }).starts_with("request: present is 256; known are sums"));
     }
 }

@@ -1,0 +1,151 @@
+//! What of a request to walk to a destination can be granted: the whole way is simulated before, more easily each time
+//! it violates a limit.
+
+use std::cell::Cell;
+
+use interface::{ActiveLimit, Footstep, Objection, Places, Reason, Verdict};
+use pattern::{Feasibility, FootstepFault, FootstepProblem, Gait, KNOT, PatternGenerator};
+
+use crate::admission_job::{AdmissionJob, Decision, objection};
+
+/// Shares of the speed factor at which footsteps are tried, and of the largest half-steps to way-points.
+const SHARES: [f64; 5] = [1.0, 0.85, 0.7, 0.55, 0.4];
+/// Most knots of a way that are simulated: 40 s. The rest is more of the same.
+const KNOTS_MAX: usize = 4000;
+/// Farthest place (m): longer than anyone walks, so that a farther one is a mistake of unit.
+const DISTANCE_MAX: f64 = 1e4;
+
+impl AdmissionJob {
+    /// Decides on a walk to places, in the walk frame, and notes how it goes there.
+    pub(crate) fn decide_destination(&mut self, places: &Places, speed: Option<f64>) -> Decision {
+        let in_force = self.generator.command();
+        let unchanged = Decision::unchanged(in_force, self.generator.half_step().index);
+        let refused =
+            |objection, place| Decision { verdict: Verdict::Refused, objection: Some(objection), place, ..unchanged };
+        if let Some((objection, place)) = self.objection_to(places) {
+            return refused(objection, place);
+        }
+        let asked = speed.unwrap_or(1.0);
+        let limits = self.generator.walk().limits();
+        let granted_speed = asked.clamp(limits.speed_min, limits.speed_max);
+        let speed_min = limits.speed_min;
+        // What the walk in force violates is no reason to refuse the way out of it.
+        let base = self.generator.gait_state().is_stepping().then(|| self.simulate(&in_force.into()).1);
+        let mut first = None;
+        for share in SHARES {
+            let (speed, share) = match places {
+                Places::Waypoints(_) => (granted_speed, share),
+                Places::Footsteps(_) => ((granted_speed * share).max(speed_min), 1.0),
+            };
+            let (feasibility, arrival) = self.simulate_way(places, speed, share);
+            let is_feasible = feasibility.violation.is_none()
+                || base.as_ref().is_some_and(|base| base.violation.is_some() && feasibility.is_no_worse_than(base));
+            let violated = feasibility
+                .violation
+                .as_ref()
+                .map(|violation| (objection(violation), self.place_of(places, feasibility.violated_in)));
+            first = first.or(violated);
+            if is_feasible {
+                self.share = share;
+                let is_less = speed != asked || first.is_some();
+                let range = (speed != asked && first.is_none()).then_some(Objection {
+                    reason: Reason::SpeedLimit,
+                    active_limit: Some(ActiveLimit { joint: None, value: asked, limit: speed }),
+                });
+                return Decision {
+                    verdict: if is_less { Verdict::Limited } else { Verdict::Accepted },
+                    granted: interface::Command { speed, ..in_force },
+                    objection: first.map(|(objection, _)| objection).or(range),
+                    place: first.and_then(|(_, place)| place),
+                    predicted_margin: Some(feasibility.margin).filter(|margin| margin.is_finite()),
+                    arrival,
+                    walk: match places {
+                        Places::Waypoints(_) => Some(self.generator.walk_to_waypoints(speed, share)),
+                        Places::Footsteps(_) => None,
+                    },
+                    ..unchanged
+                };
+            }
+        }
+        let (objection, place) = first.unwrap_or((Objection { reason: Reason::LegReach, active_limit: None }, None));
+        refused(objection, place)
+    }
+
+    /// Why a destination is none, whatever the walk, and which place it is about.
+    fn objection_to(&self, places: &Places) -> Option<(Objection, Option<u32>)> {
+        let plain = |reason| Objection { reason, active_limit: None };
+        let here = self.localization.pose;
+        let check = |index: usize, x: f64, y: f64, heading: f64| {
+            let distance = ((x - here.x) * (x - here.x) + (y - here.y) * (y - here.y)).sqrt();
+            let objection = if !(x.is_finite() && y.is_finite() && heading.is_finite()) {
+                plain(Reason::NotFinite)
+            } else if !(distance <= DISTANCE_MAX && heading.abs() <= DISTANCE_MAX) {
+                let active_limit = Some(ActiveLimit { joint: None, value: distance, limit: DISTANCE_MAX });
+                Objection { reason: Reason::TooFar, active_limit }
+            } else {
+                return None;
+            };
+            Some((objection, number(index)))
+        };
+        match places {
+            Places::Waypoints(waypoints) => {
+                let mut waypoints = waypoints.iter().enumerate();
+                waypoints.find_map(|(index, place)| check(index, place.x, place.y, place.heading.unwrap_or(0.0)))
+            }
+            Places::Footsteps(footsteps) => {
+                let mut each = footsteps.iter().enumerate();
+                let wild = each.find_map(|(index, Footstep { sole, .. })| check(index, sole.x, sole.y, sole.heading));
+                wild.or_else(|| {
+                    let fault = self.generator.check_footsteps(footsteps, &self.localization.support_sole).err()?;
+                    Some((of_footstep(&fault), number(fault.index)))
+                })
+            }
+        }
+    }
+
+    /// Simulates the way to places until the robot stands there. Returns how long that takes (s), if it arrives in the
+    /// time that is simulated.
+    fn simulate_way(&mut self, places: &Places, speed: f64, share: f64) -> (Feasibility, Option<f64>) {
+        self.trial.clone_from(&self.generator);
+        self.trial.walk_to(places, &self.localization.support_sole, speed, share);
+        let arrived = Cell::new(None);
+        let goes_on = |trial: &PatternGenerator, knots: usize| {
+            if trial.has_arrived() {
+                arrived.set(Some(knots as f64 * KNOT));
+            }
+            arrived.get().is_none() && knots < KNOTS_MAX
+        };
+        let feasibility = self.check.play(&mut self.trial, goes_on);
+        (feasibility, arrived.get())
+    }
+
+    /// The number of the footstep that is made in a half-step.
+    fn place_of(&self, places: &Places, half_step: Option<u64>) -> Option<u32> {
+        let Places::Footsteps(footsteps) = places else { return None };
+        let walk = self.generator.walk().half_step();
+        let stands = self.generator.gait_state().is_standing();
+        let (mut first, support) =
+            if stands { (walk.index, walk.support) } else { (walk.index + 1, walk.support.other()) };
+        if footsteps.first()?.side == support {
+            first += 1;
+        }
+        let index = usize::try_from(half_step?.saturating_sub(first)).ok()?;
+        number(index.min(footsteps.len() - 1))
+    }
+}
+
+/// The number of a place, counted from 1.
+fn number(index: usize) -> Option<u32> {
+    u32::try_from(index + 1).ok()
+}
+
+/// A footstep that cannot be made, in the words of a reply.
+fn of_footstep(fault: &FootstepFault) -> Objection {
+    let (reason, bound) = match fault.problem {
+        FootstepProblem::SameFoot => (Reason::SameFoot, None),
+        FootstepProblem::TooFar(bound) => (Reason::StepTooFar, Some(bound)),
+        FootstepProblem::Crosses(bound) => (Reason::FeetCross, Some(bound)),
+        FootstepProblem::Turned(bound) => (Reason::StepTurn, Some(bound)),
+    };
+    Objection { reason, active_limit: bound.map(|[value, limit]| ActiveLimit { joint: None, value, limit }) }
+}
