@@ -3,9 +3,9 @@
 //! At zero angles the robot stands straight and every link frame is parallel to the world's. A link's frame has its
 //! origin on the joint that carries the link.
 
-use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+use nalgebra::{Rotation3, Unit, Vector3};
 
-use crate::{Joint, JointOrder, PerJoint, Servos, Side, Sole, UrdfSource};
+use crate::{Body, Joint, JointOrder, Motor, PerJoint, Servos, Side, Sole, UrdfSource};
 
 /// The kinematic tree of the robot with its masses, limits and motors. Read-only once loaded.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,44 +46,6 @@ pub struct Link {
     pub motor: Option<Motor>,
 }
 
-/// Mass and inertia of a rigid body, in the link's frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Body {
-    /// Mass of the body (kg).
-    pub mass: f64,
-    /// Centre of mass in the link's frame (m).
-    pub com: Vector3<f64>,
-    /// Principal moments of inertia about the centre of mass (kg·m²).
-    pub inertia: Vector3<f64>,
-    /// Orientation of the principal axes: maps their coordinates to the link's. `None` where they are the link's axes.
-    pub principal_axes: Option<Rotation3<f64>>,
-}
-
-impl Body {
-    /// The body of a massless link.
-    pub const NONE: Body = Body {
-        mass: 0.0,
-        com: Vector3::new(0.0, 0.0, 0.0),
-        inertia: Vector3::new(0.0, 0.0, 0.0),
-        principal_axes: None,
-    };
-
-    /// Inertia about the centre of mass as a matrix, in the link's frame (kg·m²).
-    pub fn inertia_matrix(&self) -> Matrix3<f64> {
-        let principal = Matrix3::from_diagonal(&self.inertia);
-        self.principal_axes.map_or(principal, |axes| axes.matrix() * principal * axes.matrix().transpose())
-    }
-
-    /// Rotation of the principal axes, given that of the link: both map to the same frame.
-    #[inline(always)]
-    pub fn principal_rotation(&self, link: &Matrix3<f64>) -> Matrix3<f64> {
-        match &self.principal_axes {
-            None => *link,
-            Some(axes) => link * axes.matrix(),
-        }
-    }
-}
-
 /// Range and rate limit of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointLimits {
@@ -93,85 +55,6 @@ pub struct JointLimits {
     pub angle_max: f64,
     /// Largest rate, either way (rad/s).
     pub rate_max: f64,
-}
-
-/// What drives a joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Motor {
-    /// A DC motor, whose torque is bounded by its voltage.
-    Dc(DcMotor),
-    /// A source of torque of which only the limit is known.
-    Torque(TorqueSource),
-}
-
-/// A brushed or brushless DC motor with its gear.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DcMotor {
-    /// Armature resistance `R` (Ω).
-    pub resistance: f64,
-    /// Torque constant `k_t` (N·m/A), equal to the back-EMF constant (V·s/rad).
-    pub torque_constant: f64,
-    /// Gear ratio: revolutions of the motor per revolution of the joint (-).
-    pub gear_ratio: f64,
-    /// Rotor inertia, on the motor's side of the gear (kg·m²).
-    pub rotor_inertia: f64,
-    /// Largest supply voltage, either way (V).
-    pub voltage_max: f64,
-}
-
-/// A source of torque of which only the limit is known.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TorqueSource {
-    /// Largest torque at the joint, either way (N·m).
-    pub effort: f64,
-    /// Inertia of the rotor, seen at the joint (kg·m²).
-    pub armature: f64,
-}
-
-impl Motor {
-    /// Reflected rotor inertia, on the joint's side of the gear (kg·m²).
-    pub fn reflected_inertia(&self) -> f64 {
-        match self {
-            Motor::Dc(motor) => motor.rotor_inertia * motor.gear_ratio * motor.gear_ratio,
-            Motor::Torque(source) => source.armature,
-        }
-    }
-
-    /// Largest torque at the joint at standstill, either way (N·m).
-    pub fn torque_max(&self) -> f64 {
-        match self {
-            Motor::Dc(motor) => motor.torque_per_volt() * motor.voltage_max,
-            Motor::Torque(source) => source.effort,
-        }
-    }
-
-    /// Joint torque lost to back-EMF per joint rate at constant voltage (N·m·s/rad).
-    pub fn back_emf_damping(&self) -> f64 {
-        match self {
-            Motor::Dc(motor) => motor.torque_per_volt() * motor.torque_constant * motor.gear_ratio,
-            Motor::Torque(_) => 0.0,
-        }
-    }
-
-    /// The DC motor, if it is one.
-    pub fn dc(&self) -> Option<&DcMotor> {
-        match self {
-            Motor::Dc(motor) => Some(motor),
-            Motor::Torque(_) => None,
-        }
-    }
-}
-
-impl DcMotor {
-    /// Speed of the joint without load, at which the back-EMF takes all of the voltage (rad/s).
-    pub fn no_load_speed(&self) -> f64 {
-        self.voltage_max / (self.torque_constant * self.gear_ratio)
-    }
-
-    /// Torque at the joint for a voltage at standstill (N·m/V).
-    pub fn torque_per_volt(&self) -> f64 {
-        self.gear_ratio * self.torque_constant / self.resistance
-    }
 }
 
 impl Mechanism {

@@ -2,7 +2,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::PerJoint;
+use crate::{HeldJoint, PerJoint};
 
 /// The URDF that a mechanism was imported from.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,13 +28,4 @@ pub struct UrdfJoint {
     pub name: String,
     /// Its angle in the URDF per angle of the mechanism: 1 or −1 (-).
     pub sign: f64,
-}
-
-/// A joint of a URDF that is held.
-#[derive(Clone, Debug, PartialEq)]
-pub struct HeldJoint {
-    /// Its name in the URDF.
-    pub name: String,
-    /// The angle at which it is held, in the URDF's sign (rad).
-    pub angle: f64,
 }

@@ -1,7 +1,7 @@
 //! Mass and inertia of a link: `mass_kg`, `com_m`, `inertia_kg_m2`.
 
 use config::Table;
-use nalgebra::{Matrix3, Rotation3, SymmetricEigen, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use crate::Body;
 
@@ -31,31 +31,25 @@ pub(super) fn read(table: &Table) -> Body {
          {MOMENT_MAX}, each at most the sum of the other two"
     );
     if table.array_len("inertia_kg_m2") == Some(6) {
-        let written = table.numbers::<6>("inertia_kg_m2").that(|entries| is_possible(&principal(entries).0), &must);
-        let (inertia, principal_axes) = principal(&written);
-        return Body { mass, com, inertia, principal_axes: Some(principal_axes) };
+        let with = |entries: &[f64; 6]| Body::with_matrix(mass, com, &matrix(entries));
+        let written = table.numbers::<6>("inertia_kg_m2").that(|entries| is_possible(&with(entries).inertia), &must);
+        return with(&written);
     }
     let inertia = table.numbers("inertia_kg_m2").that(|moments| is_possible(&Vector3::from(*moments)), &must).into();
     Body { mass, com, inertia, principal_axes: None }
 }
 
 /// Whether a rigid body has these principal moments.
-fn is_possible(moments: &Vector3<f64>) -> bool {
+pub(super) fn is_possible(moments: &Vector3<f64>) -> bool {
     let sum = moments.sum();
     moments.iter().all(|moment| {
         (MOMENT_MIN..=MOMENT_MAX).contains(moment) && *moment <= (sum - moment) * (1.0 + ROUNDING) + ROUNDING * sum
     })
 }
 
-/// Principal moments and axes of the matrix with the moments xx, yy, zz and the products xy, xz, yz.
-fn principal([xx, yy, zz, xy, xz, yz]: &[f64; 6]) -> (Vector3<f64>, Rotation3<f64>) {
-    let matrix = Matrix3::new(*xx, *xy, *xz, *xy, *yy, *yz, *xz, *yz, *zz);
-    if matrix.iter().any(|entry| !entry.is_finite()) {
-        return (Vector3::repeat(f64::NAN), Rotation3::identity());
-    }
-    let SymmetricEigen { eigenvalues, eigenvectors } = SymmetricEigen::new(matrix);
-    let right_handed = if eigenvectors.determinant() < 0.0 { -eigenvectors } else { eigenvectors };
-    (eigenvalues, Rotation3::from_matrix_unchecked(right_handed))
+/// The matrix with the moments xx, yy, zz and the products xy, xz, yz.
+fn matrix([xx, yy, zz, xy, xz, yz]: &[f64; 6]) -> Matrix3<f64> {
+    Matrix3::new(*xx, *xy, *xz, *xy, *yy, *yz, *xz, *yz, *zz)
 }
 
 #[cfg(test)]
@@ -66,13 +60,13 @@ mod tests {
     #[test]
     fn principal_moments_along_principal_axes_are_the_matrix() {
         let entries = [0.05, 0.07, 0.04, 0.004, -0.011, 0.002];
-        let (inertia, axes) = principal(&entries);
-        assert!((axes.matrix().determinant() - 1.0).abs() < 1e-12);
-        let body = Body { mass: 1.0, com: Vector3::zeros(), inertia, principal_axes: Some(axes) };
+        let with = |entries: &[f64; 6]| Body::with_matrix(1.0, Vector3::zeros(), &matrix(entries));
+        let body = with(&entries);
+        assert!((body.principal_axes.expect("they are turned").matrix().determinant() - 1.0).abs() < 1e-12);
         let matrix = body.inertia_matrix();
         let found = [matrix.m11, matrix.m22, matrix.m33, matrix.m12, matrix.m13, matrix.m23].into_iter().zip(entries);
         assert!(found.into_iter().all(|(found, entry)| (found - entry).abs() < 1e-15));
-        assert!(is_possible(&inertia));
-        assert!(!is_possible(&principal(&[0.05, 0.07, 0.04, 0.06, 0.0, 0.0]).0));
+        assert!(is_possible(&body.inertia));
+        assert!(!is_possible(&with(&[0.05, 0.07, 0.04, 0.06, 0.0, 0.0]).inertia));
     }
 }

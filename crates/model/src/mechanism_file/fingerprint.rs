@@ -1,4 +1,5 @@
-//! The fingerprints: one number for everything physical about a mechanism, and one for all of it but the servos.
+//! The fingerprints: one number for everything physical about a mechanism, and one for all of it but the servos and the
+//! held joints, of which no planned motion knows.
 //!
 //! FNV-1a, 64 bits (Fowler, Noll, Vo; draft-eastlake-fnv), over the little-endian bytes of every number [`Mechanism`]
 //! holds, in the order of its fields and joints, in SI units. Names, comments and the order of the file's keys do not
@@ -6,11 +7,12 @@
 
 use crate::{Joint, Mechanism, Motor};
 
-/// The fingerprint of a mechanism, and that of its body, without the servos.
+/// The fingerprint of a mechanism, and that of its body, without servos and held joints.
 pub(super) fn of(mechanism: &Mechanism) -> (u64, u64) {
     let mut hash = Hash::default();
     add_body(&mut hash, mechanism);
     let body = hash.0;
+    add_held(&mut hash, mechanism);
     for servo in [mechanism.servos.legs_and_waist, mechanism.servos.arms] {
         hash.add(servo.stiffness);
         hash.add(servo.damping);
@@ -64,5 +66,21 @@ fn add_body(hash: &mut Hash, mechanism: &Mechanism) {
             let electric = [motor.resistance, motor.torque_constant, motor.voltage_max];
             electric.into_iter().chain([motor.gear_ratio, motor.rotor_inertia]).for_each(&mut add);
         }
+    }
+}
+
+/// The held joints that have a link by themselves.
+fn add_held(hash: &mut Hash, mechanism: &Mechanism) {
+    let held = mechanism.source.iter().flat_map(|source| &source.held);
+    for (place, link) in held.enumerate().filter_map(|(place, held)| Some((place, held.link.as_ref()?))) {
+        let mut add = |value: f64| hash.add(value);
+        add(place as f64);
+        add(link.below.map_or(0.0, |below| 1.0 + below as f64));
+        [link.mount, link.lumped_into].iter().chain(&link.carries).for_each(|joint| add(f64::from(joint.number())));
+        link.axis.iter().chain(link.origin.iter()).copied().for_each(&mut add);
+        add(link.body.mass);
+        link.body.com.iter().copied().for_each(&mut add);
+        link.body.inertia_matrix().iter().copied().for_each(&mut add);
+        [link.drive.effort, link.drive.armature].into_iter().for_each(&mut add);
     }
 }

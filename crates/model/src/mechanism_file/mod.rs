@@ -5,18 +5,18 @@
 mod body;
 mod drive;
 mod fingerprint;
+mod held;
+mod joint_frame;
 mod servo;
 mod sole;
 mod source;
 mod symmetry;
 
 use config::{Config, Table};
-use nalgebra::{Unit, Vector3};
+use nalgebra::Vector3;
 
 use crate::{Body, DcMotor, Joint, JointOrder, Link, Mechanism, PerJoint, Side, Sole};
 
-/// Largest distance between two joints (m).
-const LENGTH_MAX: f64 = 3.0;
 /// Beside keys and values that are wrong by themselves, a file is refused for a broken tree, axes that are not unit
 /// vectors, impossible inertias, joints faster than their motors, and a robot that is not left–right symmetric.
 impl Config for Mechanism {
@@ -34,6 +34,7 @@ impl Config for Mechanism {
         let mut mechanism = Mechanism { name, links, order, sole, servos, source, fingerprint: 0, body_fingerprint: 0 };
         if stands_on_its_sole(&tables, &mechanism) {
             symmetry::check(&tables, &mechanism);
+            held::check(&tables, &mechanism);
         }
         (mechanism.fingerprint, mechanism.body_fingerprint) = fingerprint::of(&mechanism);
         mechanism
@@ -44,14 +45,12 @@ fn link(joint: Joint, table: &Table, motors: &[(&str, DcMotor)]) -> Link {
     let number = f64::from(joint.number());
     table.number("number").that(|value| value == number, &format!("must be {number}, the number of {}", joint.name()));
     let parent = parent(joint, table);
-    let is_unit = |axis: &[f64; 3]| (Vector3::from(*axis).norm() - 1.0).abs() <= 1e-9;
-    let axis = Vector3::from(table.numbers("axis").that(is_unit, "must be a unit vector such as [0, 1, 0]"));
-    let origin = Vector3::from(table.numbers("origin_m").between(-LENGTH_MAX, LENGTH_MAX));
+    let (axis, origin) = joint_frame::read(table);
 
     // Between foot and ground there is no body, only an axis.
     let body = if joint == Joint::FootRoll { Body::NONE } else { body::read(table) };
     let (limits, motor) = if drive::is_present(joint, table) { drive::read(table, motors) } else { (None, None) };
-    Link { parent, axis: Unit::new_normalize(axis), origin, body, limits, motor }
+    Link { parent, axis, origin, body, limits, motor }
 }
 
 /// The joint's parent; `None` for the ground.

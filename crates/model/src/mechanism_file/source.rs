@@ -3,7 +3,8 @@
 use config::Table;
 use nalgebra::{Quaternion, UnitQuaternion, Vector4};
 
-use crate::{HeldJoint, PerJoint, UrdfJoint, UrdfSource};
+use super::held;
+use crate::{PerJoint, UrdfJoint, UrdfSource};
 
 /// Largest coordinate of a sole in the root link's frame (m).
 const SOLE_MAX: f64 = 100.0;
@@ -28,13 +29,6 @@ pub(super) fn read(root: &Table, tables: &PerJoint<Table>) -> Option<UrdfSource>
             sign: table.number("urdf_sign").that(|sign| sign.abs() == 1.0, "must be 1 or -1"),
         })
     });
-    let held = root.tables("held");
-    let held = held
-        .iter()
-        .map(|table| HeldJoint {
-            name: table.text("urdf").to_string(),
-            angle: table.angle("at_deg").between(-720.0, 720.0),
-        })
-        .collect();
+    let held = held::read(root, tables);
     Some(UrdfSource { file, trunk_link, root_to_stand, soles_in_root, joints, held })
 }

@@ -171,7 +171,7 @@ mod tests {
             root_to_stand: UnitQuaternion::from_axis_angle(&Vector3::z_axis(), -std::f64::consts::FRAC_PI_2),
             soles_in_root: [Vector3::new(0.1, 0.0, -0.9), Vector3::new(-0.1, 0.0, -0.9)],
             joints,
-            held: vec![model::HeldJoint { name: "neck".to_owned(), angle: 0.2 }],
+            held: vec![model::HeldJoint { name: "neck".to_owned(), angle: 0.2, link: None }],
         };
         (mechanism, source)
     }

@@ -1,0 +1,90 @@
+//! The held joints: `[[held]]`, and `parent_held` of the joints that they carry.
+//!
+//! With `urdf` and `at_deg` alone a joint is welded, as all held ones were until 0.1.0.
+
+use config::Table;
+
+use super::{body, joint_frame};
+use crate::{Body, HeldJoint, HeldLink, Joint, Mechanism, PerJoint, TorqueSource};
+
+/// Largest torque of a drive (N·m).
+const EFFORT: (f64, f64) = (1e-6, 1e5);
+/// Smallest and largest inertia of a rotor at its joint (kg·m²): without any, a joint without mass beyond it has no
+/// dynamics.
+const ARMATURE: (f64, f64) = (1e-9, 100.0);
+
+/// Reads the held joints.
+pub(super) fn read(root: &Table, joints: &PerJoint<Table>) -> Vec<HeldJoint> {
+    let tables = root.tables("held");
+    let names: Vec<&str> = tables.iter().map(|table| table.text("urdf")).collect();
+    let mut held: Vec<HeldJoint> = Vec::new();
+    for (table, name) in tables.iter().zip(&names) {
+        let angle = table.angle("at_deg").between(-720.0, 720.0);
+        let link = table.has("parent").then(|| link(table, &names, &held)).flatten();
+        held.push(HeldJoint { name: (*name).to_string(), angle, link });
+    }
+    let links = held.iter().filter(|held| held.link.is_some()).count();
+    if links > HeldLink::COUNT_MAX {
+        root.refuse("held", &format!("must be at most {} with a parent, not {links}", HeldLink::COUNT_MAX));
+    }
+    for (joint, table) in joints.iter().filter(|(_, table)| table.has("parent_held")) {
+        let carrier = carrier(table, &names, &held);
+        if let Some(link) = carrier.and_then(|place| held[place].link.as_mut()) {
+            if table.has("parent") && table.text("parent") != link.mount.name() {
+                table.refuse("parent_held", &format!("must be a held joint with the parent {}", table.text("parent")));
+            }
+            link.carries.push(joint);
+        }
+    }
+    held
+}
+
+/// Notes links of the mechanism that are no bodies any more without those that are held.
+pub(super) fn check(joints: &PerJoint<Table>, mechanism: &Mechanism) {
+    if mechanism.source.as_ref().is_none_or(|source| source.held.is_empty()) {
+        return;
+    }
+    let rest = mechanism.unlumped().mechanism;
+    for (joint, table) in joints.iter() {
+        let Body { mass, inertia, .. } = rest.links[joint].body;
+        let is_changed = mass.is_finite() && mass != mechanism.links[joint].body.mass;
+        if is_changed && mass != 0.0 && (mass < 0.0 || !body::is_possible(&inertia)) {
+            let [x, y, z] = inertia.into();
+            let left = format!("{mass} kg, [{x}, {y}, {z}] kg·m²");
+            let must = format!("must leave a body without those of held joints; what is left is {left}");
+            table.refuse("mass_kg", &must);
+        }
+    }
+}
+
+fn link(table: &Table, names: &[&str], held: &[HeldJoint]) -> Option<HeldLink> {
+    let joints = || Joint::ALL[1..].iter().map(|joint| (joint.name(), *joint));
+    let mount = table.choice("parent", joints());
+    let lumped_into = if table.has("lumped_into") { table.choice("lumped_into", joints()) } else { mount };
+    let below = table.has("parent_held").then(|| carrier(table, names, held)).flatten();
+    let (axis, origin) = joint_frame::read(table);
+    let body = body::read(table);
+    let effort = table.number("effort_n_m").between(EFFORT.0, EFFORT.1);
+    let armature = table.number("armature_kg_m2").between(ARMATURE.0, ARMATURE.1);
+    let (mount, lumped_into) = (mount?, lumped_into?);
+    let is_on_mount = |place: &usize| held[*place].link.as_ref().is_some_and(|link| link.mount == mount);
+    if below.is_some_and(|place| !is_on_mount(&place)) {
+        table.refuse("parent_held", &format!("must be a held joint with the parent {}", mount.name()));
+    }
+    Some(HeldLink {
+        mount,
+        below: below.filter(is_on_mount),
+        axis,
+        origin,
+        body,
+        lumped_into,
+        carries: Vec::new(),
+        drive: TorqueSource { effort, armature },
+    })
+}
+
+/// The held joint that `parent_held` names: one that comes before this table and has a link.
+fn carrier(table: &Table, names: &[&str], held: &[HeldJoint]) -> Option<usize> {
+    let with_link = held.iter().enumerate().filter(|(_, held)| held.link.is_some());
+    table.choice("parent_held", with_link.map(|(place, _)| (names[place], place)))
+}
