@@ -4,8 +4,11 @@
 //! articulated inertias are added without being transformed.
 
 use model::{GRAVITY, Joint, JointVector, Mechanism, PerJoint, Wrench};
-use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::{Isometry3, Matrix6, Vector3, Vector6};
 
+use crate::held_body::HeldBody;
+use crate::held_tree::HeldPoses;
+use crate::spatial::{cross_motion, set_rigid_motion, spatial, split};
 use crate::{Kinematics, Tree};
 
 /// Forward dynamics and its intermediates. Filled in two stages, so that contact forces can be computed between them.
@@ -22,12 +25,14 @@ pub struct ArticulatedBody {
     bias_acceleration: PerJoint<Vector6<f64>>,
     rigid_inertia: PerJoint<Matrix6<f64>>,
     rigid_bias: PerJoint<Vector6<f64>>,
-    inertia: PerJoint<Matrix6<f64>>,
-    bias: PerJoint<Vector6<f64>>,
+    pub(crate) inertia: PerJoint<Matrix6<f64>>,
+    pub(crate) bias: PerJoint<Vector6<f64>>,
     inertia_by_subspace: PerJoint<Vector6<f64>>,
     resistance: JointVector,
     drive: JointVector,
-    acceleration: PerJoint<Vector6<f64>>,
+    pub(crate) acceleration: PerJoint<Vector6<f64>>,
+    pub(crate) held: Vec<HeldBody>,
+    pub(crate) held_poses: Box<HeldPoses>,
 }
 
 /// An external load on a link.
@@ -71,6 +76,8 @@ impl Default for ArticulatedBody {
             resistance: JointVector::ZERO,
             drive: JointVector::ZERO,
             acceleration: vectors,
+            held: Vec::new(),
+            held_poses: Box::default(),
         }
     }
 }
@@ -78,6 +85,11 @@ impl Default for ArticulatedBody {
 const BASE: Joint = Mechanism::RIGHT_FOOT;
 
 impl ArticulatedBody {
+    /// The dynamics of a tree, with room for its held joints.
+    pub fn new(tree: &Tree) -> Self {
+        Self { held: vec![HeldBody::default(); tree.held_count()], ..Self::default() }
+    }
+
     /// First stage: poses, velocities, and the inertia and bias wrench of each link by itself.
     ///
     /// * `orientation` – pose of the right sole, sole to world; its translation is ignored
@@ -92,50 +104,54 @@ impl ArticulatedBody {
         rates: &JointVector,
     ) {
         let at_origin = Isometry3::from_parts(Vector3::zeros().into(), orientation.rotation);
-        self.kinematics.compute_floating_base(tree, &at_origin, angles);
+        self.place_all(tree, &at_origin, angles);
+        // Two instances: a robot without held joints pays nothing for them.
+        match &tree.held {
+            None => self.set_velocities::<false>(tree, angular_rate, velocity, rates),
+            Some(_) => self.set_velocities::<true>(tree, angular_rate, velocity, rates),
+        }
+    }
+
+    #[inline(always)]
+    fn set_velocities<const HELD: bool>(
+        &mut self,
+        tree: &Tree,
+        angular_rate: Vector3<f64>,
+        velocity: Vector3<f64>,
+        rates: &JointVector,
+    ) {
         self.velocity[BASE] = spatial(angular_rate, velocity);
         self.set_rigid_body(tree, BASE);
+        if HELD && let Some(held) = &tree.held {
+            self.set_held_on(held, BASE);
+        }
 
         for joint in tree.floating_joints() {
             let Some(parent) = tree.nodes[joint].parent else { continue };
             let axis = self.kinematics.axis[joint];
             let subspace = spatial(axis, self.kinematics.origin[joint].cross(&axis));
             let joint_velocity = subspace * rates[joint];
-            let velocity = self.velocity[parent] + joint_velocity;
+            let carrier = match tree.held_below(joint) {
+                Some(below) if HELD => self.held[below].velocity,
+                _ => self.velocity[parent],
+            };
+            let velocity = carrier + joint_velocity;
             self.subspace[joint] = subspace;
             self.velocity[joint] = velocity;
             self.bias_acceleration[joint] = cross_motion(&velocity, &joint_velocity);
             self.set_rigid_body(tree, joint);
+            if HELD && let Some(held) = &tree.held {
+                self.set_held_on(held, joint);
+            }
         }
     }
 
     /// The link's own inertia, and the wrench that its velocity needs at zero acceleration.
     #[inline]
     fn set_rigid_body(&mut self, tree: &Tree, joint: Joint) {
-        let Some(body) = &tree.nodes[joint].body else {
-            self.rigid_inertia[joint] = Matrix6::zeros();
-            self.rigid_bias[joint] = Vector6::zeros();
-            return;
-        };
-        let rotation = &self.kinematics.rotation[joint];
-        let com = self.kinematics.origin[joint] + rotation * body.com;
-        let principal = body.principal_rotation(rotation);
-        let scaled = Matrix3::from_columns(&[
-            principal.column(0) * body.inertia.x,
-            principal.column(1) * body.inertia.y,
-            principal.column(2) * body.inertia.z,
-        ]);
-        let first = (com * body.mass).cross_matrix();
-        let second = scaled * principal.transpose() - first * com.cross_matrix();
-
-        let inertia = &mut self.rigid_inertia[joint];
-        inertia.fixed_view_mut::<3, 3>(0, 0).copy_from(&second);
-        inertia.fixed_view_mut::<3, 3>(0, 3).copy_from(&first);
-        inertia.fixed_view_mut::<3, 3>(3, 0).copy_from(&-first);
-        inertia.fixed_view_mut::<3, 3>(3, 3).copy_from(&Matrix3::from_diagonal_element(body.mass));
-
-        let velocity = self.velocity[joint];
-        self.rigid_bias[joint] = cross_force(&velocity, &(*inertia * velocity));
+        let (rotation, origin) = (&self.kinematics.rotation[joint], &self.kinematics.origin[joint]);
+        let (inertia, bias) = (&mut self.rigid_inertia[joint], &mut self.rigid_bias[joint]);
+        set_rigid_motion(tree.nodes[joint].body.as_ref(), rotation, origin, &self.velocity[joint], inertia, bias);
     }
 
     /// Second stage: the accelerations under joint torques, external loads and gravity.
@@ -143,6 +159,20 @@ impl ArticulatedBody {
     /// * `torques` – joint torques (N·m); those of the two unpowered joints are ignored
     /// * `armature` – inertia added to each joint's rotation, by rotors and implicitly integrated servos (kg·m²)
     pub fn accelerations(
+        &mut self,
+        tree: &Tree,
+        torques: &JointVector,
+        armature: &JointVector,
+        loads: &[LinkLoad],
+    ) -> Accelerations {
+        match &tree.held {
+            None => self.solve::<false>(tree, torques, armature, loads),
+            Some(_) => self.solve::<true>(tree, torques, armature, loads),
+        }
+    }
+
+    #[inline(always)]
+    fn solve<const HELD: bool>(
         &mut self,
         tree: &Tree,
         torques: &JointVector,
@@ -158,7 +188,14 @@ impl ArticulatedBody {
             self.bias[load.link] -= spatial(load.wrench.moment, load.wrench.force) + at_rest;
         }
 
+        if HELD {
+            self.begin_held();
+        }
+
         for joint in tree.floating_joints().rev() {
+            if HELD && let Some(held) = &tree.held {
+                self.fold_held_on(held, joint);
+            }
             let Some(parent) = tree.nodes[joint].parent else { continue };
             let subspace = self.subspace[joint];
             let inertia_by_subspace = self.inertia[joint] * subspace;
@@ -175,21 +212,39 @@ impl ArticulatedBody {
             let bias = self.bias[joint] + self.inertia[joint] * bias_acceleration + inertia_by_subspace * share;
             let projected = inertia_by_subspace * (inertia_by_subspace * resistance).transpose();
             let inertia = self.inertia[joint] - projected;
-            self.inertia[parent] += inertia;
-            self.bias[parent] += bias;
+            if HELD && let Some(below) = tree.held_below(joint) {
+                self.held[below].inertia += inertia;
+                self.held[below].bias += bias;
+            } else {
+                self.inertia[parent] += inertia;
+                self.bias[parent] += bias;
+            }
+        }
+        if HELD && let Some(held) = &tree.held {
+            self.fold_held_on(held, BASE);
         }
 
         // Gravity as an upward acceleration of everything.
         let base = self.inertia[BASE].cholesky().map_or_else(Vector6::zeros, |factor| factor.solve(&-self.bias[BASE]));
         self.acceleration[BASE] = base;
+        if HELD && let Some(held) = &tree.held {
+            self.accelerate_held_on(held, BASE);
+        }
         let mut joints = JointVector::ZERO;
         for joint in tree.floating_joints() {
             let Some(parent) = tree.nodes[joint].parent else { continue };
-            let carried = self.acceleration[parent] + self.bias_acceleration[joint];
+            let carrier = match tree.held_below(joint) {
+                Some(below) if HELD => self.held[below].acceleration,
+                _ => self.acceleration[parent],
+            };
+            let carried = carrier + self.bias_acceleration[joint];
             let acceleration =
                 self.resistance[joint] * (self.drive[joint] - self.inertia_by_subspace[joint].dot(&carried));
             self.acceleration[joint] = carried + self.subspace[joint] * acceleration;
             joints[joint] = acceleration;
+            if HELD && let Some(held) = &tree.held {
+                self.accelerate_held_on(held, joint);
+            }
         }
 
         let angular = base.fixed_rows::<3>(0).into_owned();
@@ -202,30 +257,4 @@ impl ArticulatedBody {
     pub fn link_acceleration(&self, link: Joint) -> Vector6<f64> {
         self.acceleration[link] + spatial(Vector3::zeros(), self.gravity)
     }
-}
-
-#[inline(always)]
-fn spatial(angular: Vector3<f64>, linear: Vector3<f64>) -> Vector6<f64> {
-    Vector6::new(angular.x, angular.y, angular.z, linear.x, linear.y, linear.z)
-}
-
-#[inline(always)]
-fn split(vector: &Vector6<f64>) -> (Vector3<f64>, Vector3<f64>) {
-    (Vector3::new(vector[0], vector[1], vector[2]), Vector3::new(vector[3], vector[4], vector[5]))
-}
-
-/// `v × m` for motions.
-#[inline(always)]
-fn cross_motion(velocity: &Vector6<f64>, motion: &Vector6<f64>) -> Vector6<f64> {
-    let (angular, linear) = split(velocity);
-    let (rotation, translation) = split(motion);
-    spatial(angular.cross(&rotation), angular.cross(&translation) + linear.cross(&rotation))
-}
-
-/// `v ×* f` for wrenches.
-#[inline(always)]
-fn cross_force(velocity: &Vector6<f64>, wrench: &Vector6<f64>) -> Vector6<f64> {
-    let (angular, linear) = split(velocity);
-    let (moment, force) = split(wrench);
-    spatial(angular.cross(&moment) + linear.cross(&force), angular.cross(&force))
 }

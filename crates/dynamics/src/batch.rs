@@ -8,9 +8,9 @@ use model::{Body, GRAVITY, Joint, Motion, PerJoint, Wrench};
 use nalgebra::Vector3;
 
 use crate::Tree;
+use crate::joint_axis::JointAxis;
 use crate::lanes::{LANES, Lanes, Vectors};
 use crate::sin_cos::sin_cos;
-use crate::tree::JointAxis;
 
 /// Pose and motion of a link in each lane, at the link's origin in world axes.
 #[derive(Clone, Copy, Debug)]

@@ -7,8 +7,8 @@ use model::{Joint, JointVector, Mechanism, Side};
 use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3, Vector6};
 
 use crate::inverse_kinematics::Unreachable;
+use crate::joint_axis::JointAxis;
 use crate::sin_cos::sin_cos;
-use crate::tree::JointAxis;
 
 /// Residual below which the next Newton step is the last one (m, rad): what is left is its square, 1e-9, and in the
 /// angles of a nearly stretched leg some hundred times that.

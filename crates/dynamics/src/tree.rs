@@ -1,7 +1,10 @@
 //! The mechanism prepared for the algorithms: axes sorted by direction, massless links and coincident origins marked.
 
-use model::{Joint, JointOrder, Mechanism, PerJoint, Side};
-use nalgebra::{Matrix3, Unit, Vector3};
+use model::{Joint, JointOrder, Mechanism, PerJoint, Side, UnlumpedMechanism};
+use nalgebra::Vector3;
+
+use crate::held_tree::HeldTree;
+use crate::joint_axis::JointAxis;
 
 /// A mechanism prepared for the algorithms. Read-only.
 #[derive(Clone, Debug)]
@@ -11,6 +14,8 @@ pub struct Tree {
     pub(crate) order: JointOrder,
     /// Mass of the whole robot (kg).
     pub mass: f64,
+    /// The held joints that turn; `None` for a robot that has none, or that is taken as rigid there.
+    pub(crate) held: Option<Box<HeldTree>>,
 }
 
 /// One joint and its link.
@@ -28,17 +33,8 @@ pub(crate) struct Node {
     pub is_rigid: bool,
 }
 
-/// The axis of a joint. Nearly all are along a coordinate, where a rotation touches two columns only.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum JointAxis {
-    X,
-    Y,
-    Z,
-    About(Unit<Vector3<f64>>),
-}
-
 impl Tree {
-    /// The tree of a mechanism.
+    /// The tree of a mechanism, held joints rigid.
     pub fn new(mechanism: &Mechanism) -> Self {
         let nodes = PerJoint::from_fn(|joint| {
             let link = &mechanism.links[joint];
@@ -50,7 +46,30 @@ impl Tree {
                 is_rigid: joint.is_powered() && !mechanism.has(joint),
             }
         });
-        Self { nodes, order: mechanism.order, mass: mechanism.mass() }
+        Self { nodes, order: mechanism.order, mass: mechanism.mass(), held: None }
+    }
+
+    /// The tree of a robot whose held joints turn; its links are without the bodies of held ones.
+    pub fn with_held(robot: &UnlumpedMechanism) -> Self {
+        let held = HeldTree::new(robot);
+        let of_held: f64 = robot.held.iter().map(|link| link.body.mass).sum();
+        let tree = Self::new(&robot.mechanism);
+        if held.is_none() { tree } else { Self { mass: tree.mass + of_held, held, ..tree } }
+    }
+
+    /// Number of held joints that turn.
+    pub fn held_count(&self) -> usize {
+        self.held.as_ref().map_or(0, |held| held.nodes.len())
+    }
+
+    /// The held joint that carries a joint, by its index; `None` if its parent link does.
+    pub fn held_below(&self, joint: Joint) -> Option<usize> {
+        self.held.as_ref().and_then(|held| held.below[joint]).map(|(index, _)| index)
+    }
+
+    /// The held joint that carries another held one; `None` if a link of the mechanism does.
+    pub fn held_below_held(&self, index: usize) -> Option<usize> {
+        self.held.as_ref().and_then(|held| held.nodes.get(index)?.below)
     }
 
     /// The joints of the floating robot, whose base is the right foot: all but the two on the ground.
@@ -75,42 +94,5 @@ impl Tree {
     #[inline(always)]
     pub fn leg(&self, side: Side) -> [Joint; 6] {
         self.order.leg(side)
-    }
-}
-
-impl JointAxis {
-    pub(crate) fn new(axis: Unit<Vector3<f64>>) -> Self {
-        if axis == Vector3::x_axis() {
-            JointAxis::X
-        } else if axis == Vector3::y_axis() {
-            JointAxis::Y
-        } else if axis == Vector3::z_axis() {
-            JointAxis::Z
-        } else {
-            JointAxis::About(axis)
-        }
-    }
-
-    /// The child's rotation and the joint's axis in the world, from the parent's rotation and sine and cosine of the
-    /// angle.
-    #[inline(always)]
-    pub(crate) fn apply(self, parent: &Matrix3<f64>, (sine, cosine): (f64, f64)) -> (Matrix3<f64>, Vector3<f64>) {
-        let (x, y, z) = (parent.column(0), parent.column(1), parent.column(2));
-        match self {
-            JointAxis::X => {
-                (Matrix3::from_columns(&[x.into(), y * cosine + z * sine, z * cosine - y * sine]), x.into())
-            }
-            JointAxis::Y => {
-                (Matrix3::from_columns(&[x * cosine - z * sine, y.into(), x * sine + z * cosine]), y.into())
-            }
-            JointAxis::Z => {
-                (Matrix3::from_columns(&[x * cosine + y * sine, y * cosine - x * sine, z.into()]), z.into())
-            }
-            JointAxis::About(axis) => {
-                let across = axis.cross_matrix() * sine + axis.into_inner() * axis.transpose() * (1.0 - cosine);
-                let rotation = Matrix3::from_diagonal_element(cosine) + across;
-                (parent * rotation, parent * axis.into_inner())
-            }
-        }
     }
 }
