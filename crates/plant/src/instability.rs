@@ -19,7 +19,7 @@ const SPEED_MAX: f64 = 1e3;
 pub struct Instability {
     /// Time since the start (s).
     pub time: f64,
-    /// The joint that moves impossibly; `None` for the robot as a whole.
+    /// The joint that moves impossibly, or on whose link a held one does; `None` for the robot as a whole.
     pub joint: Option<Joint>,
     /// Its rate (rad/s), or the robot's speed (m/s); maybe not finite.
     pub speed: f64,
@@ -36,6 +36,13 @@ impl Plant {
         });
         if let Some((joint, rate)) = joint {
             return Some(Instability { time, joint: Some(joint), speed: *rate });
+        }
+        if let Some(index) = self.robot.held.rates.iter().position(|rate| !within(*rate, RATE_MAX)) {
+            return Some(Instability {
+                time,
+                joint: self.held_drives.mount(index),
+                speed: self.robot.held.rate(index),
+            });
         }
         let speed = self.robot.velocity.norm();
         let moves = within(speed, SPEED_MAX) && within(self.robot.angular_rate.norm(), RATE_MAX);

@@ -8,6 +8,8 @@
 mod contact;
 mod disturbances;
 mod external_engine;
+mod held_drive;
+mod held_motion;
 mod instability;
 mod loads;
 mod mass_error;
@@ -28,6 +30,8 @@ mod unevenness;
 pub use contact::{ContactParameters, FootContact, FootMotion, GroundContact};
 pub use disturbances::Disturbances;
 pub use external_engine::EngineState;
+pub use held_drive::HeldDrives;
+pub use held_motion::HeldMotion;
 pub use instability::Instability;
 pub use mass_error::with_mass_error;
 pub use motor::{Drive, DriveTorque};

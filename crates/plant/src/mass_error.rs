@@ -1,6 +1,6 @@
 //! Errors of mass: the links of the plant weigh something else than those of the controller's model.
 
-use model::{Body, Mechanism};
+use model::{Body, Mechanism, UnlumpedMechanism};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -10,15 +10,29 @@ const STREAM: u64 = 1;
 /// The mechanism with every link's mass, and independently its inertia, wrong by a share drawn evenly from ±`error`.
 /// The same seed draws the same shares; with an error of 0 nothing changes.
 pub fn with_mass_error(mechanism: &Mechanism, error: f64, seed: u64) -> Mechanism {
+    let (mut mechanism, mut factor) = (mechanism.clone(), factors(error, seed));
+    mechanism.links.0.iter_mut().for_each(|link| link.body = wrong(link.body, &mut factor));
+    mechanism
+}
+
+/// The robot with the same errors of mass, and held links with others of their own.
+pub(crate) fn unlumped_with_mass_error(robot: UnlumpedMechanism, error: f64, seed: u64) -> UnlumpedMechanism {
+    let (mut robot, mut factor) = (robot, factors(error, seed));
+    robot.mechanism.links.0.iter_mut().for_each(|link| link.body = wrong(link.body, &mut factor));
+    robot.held.iter_mut().for_each(|link| link.body = wrong(link.body, &mut factor));
+    robot
+}
+
+/// Factors of right values, drawn evenly from 1 ± `error`.
+fn factors(error: f64, seed: u64) -> impl FnMut() -> f64 {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(STREAM);
-    let mut factor = || 1.0 + error * random.random_range(-1.0..=1.0);
-    let mut mechanism = mechanism.clone();
-    for link in &mut mechanism.links.0 {
-        let Body { mass, inertia, .. } = link.body;
-        link.body = Body { mass: mass * factor(), inertia: inertia * factor(), ..link.body };
-    }
-    mechanism
+    move || 1.0 + error * random.random_range(-1.0..=1.0)
+}
+
+fn wrong(body: Body, mut factor: impl FnMut() -> f64) -> Body {
+    let Body { mass, inertia, .. } = body;
+    Body { mass: mass * factor(), inertia: inertia * factor(), ..body }
 }
 
 #[cfg(test)]

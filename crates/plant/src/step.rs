@@ -1,19 +1,20 @@
 //! One control period of the simulated robot.
 
-use dynamics::{ArticulatedBody, Kinematics, Tree};
+use dynamics::{ArticulatedBody, Tree};
 use interface::{Measurement, Setpoint};
 use model::{GRAVITY, Joint, JointVector, Mechanism, Motion, Side, Sole, Wrench};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::contact::FootMotion;
 use crate::loads::Loads;
+use crate::mass_error::unlumped_with_mass_error;
 use crate::sensor_fault::FaultInjector;
-use crate::{Disturbances, Drive, GroundContact, PlantParameters, Push, RobotState, Sensors, with_mass_error};
+use crate::{Disturbances, Drive, GroundContact, HeldDrives, HeldMotion, PlantParameters, Push, RobotState, Sensors};
 
 /// The simulated robot with its ground, drives and sensors.
 #[derive(Clone, Debug)]
 pub struct Plant {
-    /// The mechanism with its errors of mass.
+    /// The mechanism with its errors of mass, its links without the bodies of held ones.
     pub(crate) mechanism: Mechanism,
     pub(crate) tree: Tree,
     /// Height of the centre of mass when the robot stands straight (m).
@@ -30,6 +31,7 @@ pub struct Plant {
     pub disturbances: Disturbances,
     contact: GroundContact,
     drive: Drive,
+    pub(crate) held_drives: HeldDrives,
     sensors: Sensors,
     fault_injector: FaultInjector,
     body: ArticulatedBody,
@@ -46,22 +48,28 @@ impl Plant {
     /// * `period` – length of a control period (s)
     /// * `seed` – seed of the floor's tiles, the errors of mass and the sensors' noise
     pub fn new(mechanism: &Mechanism, parameters: &PlantParameters, start: &Motion, period: f64, seed: u64) -> Self {
-        let mechanism = with_mass_error(mechanism, parameters.mass_error, seed);
-        let tree = Tree::new(&mechanism);
+        let robot = unlumped_with_mass_error(mechanism.unlumped(), parameters.mass_error, seed);
+        let tree = Tree::with_held(&robot);
+        let straight = RobotState::on_right_foot(&Motion::default(), 0.0);
+        let standing_height = straight.com(&tree, &straight.kinematics(&tree)).0.z;
+        let held = HeldMotion::undeflected(tree.held_count());
+        let held_drives = HeldDrives::new(&robot, parameters.servo);
+        let mechanism = robot.mechanism;
         let weight = (tree.mass + parameters.payload.mass) * GRAVITY;
         let sunk_in = weight / (Sole::CORNERS as f64 * parameters.contact.stiffness);
         let mut plant = Self {
-            robot: RobotState::on_right_foot(start, -sunk_in),
+            robot: RobotState { held, ..RobotState::on_right_foot(start, -sunk_in) },
             disturbances: Disturbances::default(),
             contact: GroundContact::new(&mechanism),
             drive: Drive::new(&mechanism, parameters.servo),
             sensors: Sensors::new(parameters.sensors, seed),
             fault_injector: FaultInjector::default(),
-            body: ArticulatedBody::default(),
+            held_drives,
+            body: ArticulatedBody::new(&tree),
             world_to_level: parameters.slope.world_to_level(),
             ground: [Wrench::ZERO; 2],
             motor_torques: JointVector::ZERO,
-            standing_height: Kinematics::fixed_base(&tree, &JointVector::ZERO).com(&tree).z,
+            standing_height,
             mechanism,
             parameters: parameters.clone(),
             period,
@@ -125,6 +133,7 @@ impl Plant {
     /// before the setpoint is due.
     fn integrate(&mut self, setpoint: &Setpoint, lead: f64, step: f64, [from, to]: [f64; 2]) {
         let robot = &self.robot;
+        self.body.set_held(self.held_drives.over_step(&robot.held, step));
         self.body.set_state(
             &self.tree,
             &robot.sole_to_world,
@@ -162,6 +171,7 @@ impl Plant {
         });
         self.motor_torques = drive.resolve(&accelerations.joints);
         self.robot.integrate(&accelerations, step);
+        self.robot.held.integrate(self.body.held_accelerations(), step);
     }
 
     /// The measurement that arrives at the controller in this control period.
@@ -183,6 +193,7 @@ impl Plant {
 
         let trunk_to_world = kinematics.link_to_world(Mechanism::TRUNK).rotation;
         let (angular_rate, _) = self.robot.link_velocity(
+            &self.tree,
             &self.mechanism,
             &kinematics,
             Mechanism::TRUNK,

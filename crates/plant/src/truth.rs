@@ -58,7 +58,7 @@ impl Plant {
         let payload = &self.parameters.payload;
         let (com, velocity) = self.robot.com(&self.tree, kinematics);
         let place = kinematics.origin[Mechanism::TRUNK] + kinematics.rotation[Mechanism::TRUNK] * payload.at;
-        let (_, moves) = self.robot.link_velocity(&self.mechanism, kinematics, Mechanism::TRUNK, place);
+        let (_, moves) = self.robot.link_velocity(&self.tree, &self.mechanism, kinematics, Mechanism::TRUNK, place);
         let share = payload.mass / (self.tree.mass + payload.mass);
         (com + (place - com) * share, velocity + (moves - velocity) * share)
     }

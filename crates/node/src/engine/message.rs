@@ -3,7 +3,7 @@
 use interface::Setpoint;
 use model::{Joint, JointVector, PerJoint, Wrench};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
-use plant::{EngineState, RobotState};
+use plant::{EngineState, HeldMotion, RobotState};
 
 /// Version of the protocol between this program and engines.
 pub(super) const PROTOCOL: u32 = 2;
@@ -46,7 +46,7 @@ pub(super) fn decode_state(bytes: &[u8; STATE_LEN * SIZE]) -> Option<EngineState
     let motor_torques = PerJoint::from_fn(|_| next());
     let sole_to_world = Isometry3::from_parts(Translation3::from(place), orientation);
     Some(EngineState {
-        robot: RobotState { sole_to_world, angular_rate, velocity, angles, rates },
+        robot: RobotState { sole_to_world, angular_rate, velocity, angles, rates, held: HeldMotion::default() },
         ground,
         motor_torques,
     })
