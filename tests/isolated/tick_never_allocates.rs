@@ -5,9 +5,11 @@
 
 use config::Config;
 use halfstep_tests::counting::allocations;
-use halfstep_tests::mechanism;
 use halfstep_tests::walking::{Walking, controller_parameters, plant_parameters};
-use interface::{GaitChange, Intent};
+use halfstep_tests::{mechanism, repository};
+use interface::{GaitChange, Intent, Setpoint};
+use model::{Mechanism, Motion};
+use plant::Plant;
 
 use crate::alone;
 
@@ -63,4 +65,22 @@ fn ticks_never_allocate_whatever_happens_to_the_robot() {
         }
     });
     assert_eq!(count, 0, "in 1000 ticks of controller and plant");
+}
+
+/// Held joints turn in the plant only.
+#[test]
+fn steps_with_held_joints_never_allocate() {
+    let _alone = alone();
+    let file = repository().join("config/robots/talos/mechanism.toml");
+    let mechanism = Mechanism::load(file).unwrap_or_else(|errors| panic!("{errors}"));
+    let mut plant = Plant::new(&mechanism, &plant_parameters(), &Motion::default(), 1e-3, 1);
+    assert!(plant.robot.held.rates.len() > 10);
+    let count = allocations_of(|| {
+        for _ in 0..300 {
+            plant.step(&Setpoint::default());
+            plant.hold();
+            std::hint::black_box((plant.truth(), plant.instability()));
+        }
+    });
+    assert_eq!(count, 0, "in 300 periods of the plant");
 }

@@ -14,6 +14,9 @@ pub(super) struct LumpedBody {
 }
 
 impl LumpedBody {
+    /// Bodies that weigh less are none (kg).
+    pub(super) const MASS_MIN: f64 = 1e-6;
+
     /// The same body in another frame; `to` maps coordinates to it.
     pub(super) fn moved(&self, to: &Isometry3<f64>) -> LumpedBody {
         let turn = to.rotation.to_rotation_matrix();
@@ -33,6 +36,11 @@ impl LumpedBody {
             body.inertia + body.mass * (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose())
         };
         LumpedBody { mass, com, inertia: about(self) + about(other) }
+    }
+
+    /// What remains of a rigid body without a part of it.
+    pub(super) fn without(&self, part: &LumpedBody) -> LumpedBody {
+        self.with(&LumpedBody { mass: -part.mass, com: part.com, inertia: -part.inertia })
     }
 
     /// The mirror image in the plane y = 0.

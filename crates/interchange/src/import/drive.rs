@@ -113,6 +113,11 @@ pub(super) fn drive(
     })
 }
 
+/// The torque of a joint that is held (N·m): as that of one with a role that the map does not mention.
+pub(super) fn held_effort(joint: &UrdfTreeJoint, scale: Scale) -> f64 {
+    effort(joint, MapJoint::default(), scale, &mut DriveNotes::default())
+}
+
 fn checked_range(lower: f64, upper: f64) -> Result<[f64; 2], String> {
     let told = format!("<limit lower = \"{lower}\" upper = \"{upper}\">");
     if lower.abs().max(upper.abs()) > ANGLE_MAX {

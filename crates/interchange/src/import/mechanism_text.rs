@@ -4,14 +4,14 @@ use model::{Servos, Side, Sole};
 use nalgebra::{Isometry3, Unit, Vector3};
 
 use crate::import::biped::{Biped, Hinge, Segment};
-use crate::import::body::LumpedBody;
+use crate::import::body_text::body;
+use crate::import::grid::Grid;
+use crate::import::held_parts::HeldParts;
+use crate::import::held_text;
 use crate::import::import_map::ImportMap;
 use crate::import::role::JointRole;
-use crate::import::toml_text::{COARSE, FINE, array, digits, number, quoted, table, vector};
+use crate::import::toml_text::{COARSE, FINE, Keys, array, digits, number, quoted, table, vector};
 use crate::import::urdf_robot::UrdfRobot;
-
-/// Bodies that weigh less (kg) are left out.
-const MASS_MIN: f64 = 1e-6;
 
 /// What the file says beside the biped.
 pub(super) struct Header<'h> {
@@ -27,8 +27,9 @@ pub(super) struct Header<'h> {
     pub servos: Servos,
     /// Inertia of a rotor at its joint (kg·m²), for joints without a motor.
     pub armature: f64,
-    /// Joints that are held, by index, with their angles (rad).
+    /// Joints that are held, by index, with their angles (rad), and their links.
     pub held: &'h [(usize, f64)],
+    pub held_parts: &'h HeldParts,
 }
 
 /// Writes the file's text.
@@ -52,6 +53,8 @@ pub(super) fn write(biped: &Biped, robot: &UrdfRobot, map: &ImportMap, header: &
     let ground = grid.at(floor);
     let foot = grid.at(floor);
     let unused = |axis: Vector3<f64>| Unit::new_unchecked(axis);
+    let carrier = |name: &str| held_text::carrier(header.held_parts, robot, name);
+    let mut places = vec![("foot_pitch".to_string(), foot)];
     joint(&mut text, "foot_roll", 1, "ground", &unused(Vector3::x()), ground.to(ground), Vec::new());
     let right_foot = body(&grid, &biped.legs[0][5].body, foot);
     joint(&mut text, "foot_pitch", 2, "foot_roll", &unused(Vector3::y()), ground.to(foot), right_foot);
@@ -69,20 +72,23 @@ pub(super) fn write(biped: &Biped, robot: &UrdfRobot, map: &ImportMap, header: &
         let here = grid.at(hinge.place);
         let mut keys = body(&grid, carried, here);
         keys.extend(drive(hinge, robot, map, header));
+        keys.extend(carrier(&role.name()));
         joint(&mut text, &role.name(), role.number(), &parent, &hinge.axis, at.to(here), keys);
         (parent, at) = (role.name(), here);
+        places.push((role.name(), here));
     }
 
     let pelvis = JointRole::Leg(Side::Right, biped.roles[0]).name();
     let pelvis_at = grid.at(biped.legs[0][0].hinge.place);
-    let places = biped.waist.map_or([biped.mount; 2], |waist| waist.map(|hinge| hinge.place));
-    let [pitch_at, roll_at] = places.map(|place| grid.at(place));
+    let waist_at = biped.waist.map_or([biped.mount; 2], |waist| waist.map(|hinge| hinge.place));
+    let [pitch_at, roll_at] = waist_at.map(|place| grid.at(place));
     let axes = biped.waist.map_or([unused(Vector3::y()), unused(Vector3::x())], |waist| waist.map(|hinge| hinge.axis));
     let drives = biped.waist.map(|waist| waist.map(|hinge| drive(&hinge, robot, map, header)));
     let [pitch_drive, roll_drive] = drives.unwrap_or_default();
-    let keys = [body(&grid, &biped.middle, pitch_at), pitch_drive].concat();
+    places.extend([("waist_pitch".to_string(), pitch_at), ("waist_roll".to_string(), roll_at)]);
+    let keys = [body(&grid, &biped.middle, pitch_at), pitch_drive, carrier("waist_pitch")].concat();
     joint(&mut text, "waist_pitch", 15, &pelvis, &axes[0], pelvis_at.to(pitch_at), keys);
-    let keys = [body(&grid, &biped.trunk, roll_at), roll_drive].concat();
+    let keys = [body(&grid, &biped.trunk, roll_at), roll_drive, carrier("waist_roll")].concat();
     joint(&mut text, "waist_roll", 16, "waist_pitch", &axes[1], pitch_at.to(roll_at), keys);
     for (side, arm) in Side::BOTH.into_iter().zip(&biped.arms) {
         let (mut parent, mut at) = (JointRole::WaistRoll.name(), roll_at);
@@ -90,19 +96,18 @@ pub(super) fn write(biped: &Biped, robot: &UrdfRobot, map: &ImportMap, header: &
             let (here, axis, keys) = match arm.get(place) {
                 Some(Segment { hinge, body: carried }) => {
                     let here = grid.at(hinge.place);
-                    let keys = [body(&grid, carried, here), drive(hinge, robot, map, header)].concat();
+                    let carrier = carrier(&role.name());
+                    let keys = [body(&grid, carried, here), drive(hinge, robot, map, header), carrier].concat();
                     (here, hinge.axis, keys)
                 }
                 None => (at, unused(Vector3::y()), Vec::new()),
             };
             joint(&mut text, &role.name(), role.number(), &parent, &axis, at.to(here), keys);
             (parent, at) = (role.name(), here);
+            places.push((role.name(), here));
         }
     }
-    for &(index, angle) in header.held {
-        let keys = [("urdf", quoted(&robot.joints[index].name)), ("at_deg", number(angle.to_degrees(), COARSE))];
-        table(&mut text, "[[held]]", &keys);
-    }
+    held_text::write(&mut text, header.held_parts, robot, &grid, &places, header.armature);
     text
 }
 
@@ -137,8 +142,6 @@ pub(super) fn write_motors(text: &mut String, map: &ImportMap) {
     }
 }
 
-type Keys = Vec<(&'static str, String)>;
-
 fn joint(
     text: &mut String,
     name: &str,
@@ -158,30 +161,6 @@ fn joint(
     table(text, &format!("[joint.{name}]"), &keys);
 }
 
-/// Mass, centre of mass and inertia in the frame of a joint; nothing for a massless body.
-fn body(grid: &Grid, body: &LumpedBody, joint: OnGrid) -> Keys {
-    if body.mass < MASS_MIN {
-        return Vec::new();
-    }
-    let inertia = &body.inertia;
-    let greatest = inertia.amax();
-    let part = |row: usize, column: usize| {
-        let value = inertia[(row, column)];
-        // Rounding of the frames' rotations is no product of inertia.
-        if value.abs() < 1e-14 * greatest { 0.0 } else { value }
-    };
-    let mut moments: Vec<f64> = (0..3).map(|axis| part(axis, axis)).collect();
-    let products = [part(0, 1), part(0, 2), part(1, 2)];
-    if products.iter().any(|product| *product != 0.0) {
-        moments.extend(products);
-    }
-    vec![
-        ("mass_kg", number(body.mass, FINE)),
-        ("com_m", joint.to(grid.at(body.com))),
-        ("inertia_kg_m2", array(moments.into_iter().map(digits))),
-    ]
-}
-
 /// Range, rate and torque or motor, and which joint of the URDF it is.
 fn drive(hinge: &Hinge, robot: &UrdfRobot, map: &ImportMap, header: &Header) -> Keys {
     let drive = &hinge.drive;
@@ -197,28 +176,4 @@ fn drive(hinge: &Hinge, robot: &UrdfRobot, map: &ImportMap, header: &Header) -> 
         keys.insert(3, ("armature_kg_m2", digits(header.armature)));
     }
     keys
-}
-
-/// Positions rounded in one frame, so that mirrored points stay mirrored and differences add up.
-struct Grid {
-    /// The point under the right ankle (m).
-    floor: Vector3<f64>,
-}
-
-/// A position in steps of the grid.
-#[derive(Clone, Copy)]
-struct OnGrid([i64; 3]);
-
-impl Grid {
-    fn at(&self, point: Vector3<f64>) -> OnGrid {
-        let point = point - Vector3::new(self.floor.x, 0.0, self.floor.z);
-        OnGrid([point.x, point.y, point.z].map(|value| (value * FINE).round() as i64))
-    }
-}
-
-impl OnGrid {
-    /// The way to another position, as an array.
-    fn to(self, other: OnGrid) -> String {
-        array((0..3).map(|axis| ((other.0[axis] - self.0[axis]) as f64 / FINE + 0.0).to_string()))
-    }
 }

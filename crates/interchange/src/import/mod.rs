@@ -15,13 +15,20 @@ mod arm_pair;
 mod biped;
 mod body;
 mod body_graph;
+mod body_text;
 mod drive;
 mod facing;
 mod file_errors;
+mod grid;
+mod held_bodies;
+mod held_parts;
+mod held_search;
+mod held_text;
 mod import_map;
 mod leg_pair;
 mod leg_roles;
 mod map_text;
+mod mechanism_link;
 mod mechanism_text;
 mod parts;
 mod plausibility;
@@ -157,6 +164,7 @@ fn import_robot(robot: &UrdfRobot, map: &ImportMap, file: &str, errors: &mut Fil
     let mut biped = biped?;
     symmetry::symmetrise(&mut biped, robot, errors, &mut lines);
     possible_moments::repair(&mut biped, scale.leg, &mut lines);
+    let held_parts = parts.held(&held, &biped, scale, &mut lines);
     let feet = sides.map(|leg| legs.bodies[leg][5]);
     let sole = map.sole.or_else(|| {
         let points = feet.map(|foot| contact_points(robot, &graph.body_of, foot, &poses.links));
@@ -178,6 +186,7 @@ fn import_robot(robot: &UrdfRobot, map: &ImportMap, file: &str, errors: &mut Fil
         servos: servos(biped.mass(), scale.leg),
         armature: scale.armature(),
         held: &held,
+        held_parts: &held_parts,
     };
     if map.motors.is_empty() {
         lines.push(format!("no rotor is told: an inertia of {:.3e} kg·m² is assumed at every joint", header.armature));

@@ -55,8 +55,17 @@ impl Parts<'_> {
         roles
     }
 
+    /// The joints between the bodies of the biped: those with a role, and the first one of a waist without.
+    pub(super) fn turning(&self) -> Vec<usize> {
+        let mut turning: Vec<usize> = self.roles().iter().map(|(_, joint)| *joint).collect();
+        if self.waist.roles.is_none() {
+            turning.extend(self.waist.joints.first().map(|(joint, _)| *joint));
+        }
+        turning
+    }
+
     /// The joints of right and left arm that have a role, from the trunk outward, each with the body behind it.
-    fn arm_joints(&self) -> [Vec<(JointRole, (usize, usize))>; 2] {
+    pub(super) fn arm_joints(&self) -> [Vec<(JointRole, (usize, usize))>; 2] {
         let joints = |side: Side| {
             let arm = self.arms.map(|arms| &arms[side.index()]);
             let joints = arm.into_iter().flat_map(|arm| [Some(arm.shoulder), arm.elbow]).flatten();
@@ -125,10 +134,7 @@ impl Parts<'_> {
 
     /// Puts the biped together; notes joints whose limits make no sense, or that follow another joint.
     pub(super) fn biped(&self, scale: Scale, errors: &mut FileErrors, lines: &mut Vec<String>) -> Option<Biped> {
-        let mut turning: Vec<usize> = self.roles().iter().map(|(_, joint)| *joint).collect();
-        if self.waist.roles.is_none() {
-            turning.extend(self.waist.joints.first().map(|(joint, _)| *joint));
-        }
+        let turning = self.turning();
         let graph = BodyGraph::new(self.robot, |joint| turning.contains(&joint));
         let lump = |body: usize| graph.lump(self.robot, self.poses, &[graph.body_of[body]]);
         let mut notes = DriveNotes::default();

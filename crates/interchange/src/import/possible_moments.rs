@@ -7,6 +7,8 @@ use crate::import::body::LumpedBody;
 
 /// Least radius of gyration of a body, as a share of the leg's length: some URDFs give mass without inertia.
 const GYRATION_MIN: f64 = 0.005;
+/// A smaller moment is none (kg·m²).
+const MOMENT_MIN: f64 = 1e-11;
 /// By how much the greatest moment may exceed the others' sum, as a share of it.
 const ROUNDING: f64 = 1e-9;
 
@@ -37,8 +39,14 @@ pub(super) fn repair(biped: &mut Biped, leg: f64, lines: &mut Vec<String>) {
     }
 }
 
+/// Whether a body can have this inertia about its centre of mass (kg·m²).
+pub(super) fn has_possible_moments(inertia: &Matrix3<f64>) -> bool {
+    let moments = inertia.symmetric_eigenvalues();
+    moments.iter().all(|moment| *moment > MOMENT_MIN && 2.0 * moment <= moments.sum() + ROUNDING * moment)
+}
+
 /// Raises the moments of one body; in words what they were and became.
-fn repair_body(body: &mut LumpedBody, leg: f64) -> Option<String> {
+pub(super) fn repair_body(body: &mut LumpedBody, leg: f64) -> Option<String> {
     if body.mass <= 0.0 {
         return None;
     }

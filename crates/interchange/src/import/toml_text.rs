@@ -9,6 +9,9 @@ pub(super) const FINE: f64 = 1e12;
 /// Steps per unit to which angles and what else is no length are rounded.
 pub(super) const COARSE: f64 = 1e9;
 
+/// Keys with their values, written.
+pub(super) type Keys = Vec<(&'static str, String)>;
+
 /// A rounded number; zero has no sign.
 pub(super) fn number(value: f64, per_unit: f64) -> String {
     ((value * per_unit).round() / per_unit + 0.0).to_string()

@@ -9,6 +9,7 @@ use nalgebra::{Isometry3, Matrix3, Point3, Translation3, Unit, UnitQuaternion, V
 use quick_xml::Reader;
 use quick_xml::events::Event;
 
+mod held;
 pub(crate) mod robots;
 pub(crate) mod variants;
 pub(crate) mod walker;

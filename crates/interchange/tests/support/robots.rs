@@ -17,11 +17,11 @@ pub(crate) struct Allowed {
     pub(crate) com: f64,
 }
 
-/// Mass, places of all joints with a role, and centre of mass of mechanism and URDF are the same at random angles; the
-/// robot's x axis is `yaw` to the left of its root's.
+/// Mass, places of all joints with a role, and centre of mass of mechanism and URDF are the same at random angles, held
+/// joints a little off theirs; the robot's x axis is `yaw` to the left of its root's.
 pub(crate) fn same_robot(urdf: &str, imported: &Imported, yaw: f64, allowed: Allowed) {
     let file: toml::Table = imported.text.parse().unwrap_or_else(|error| panic!("{error}"));
-    let (urdf, mechanism) = (Tree::of_urdf(urdf), Tree::of_mechanism(&file));
+    let (urdf, mechanism) = (Tree::of_urdf(urdf), Tree::of_mechanism_with_held(&file));
     assert!((urdf.mass() - mechanism.mass()).abs() < 1e-9, "{} and {} kg", urdf.mass(), mechanism.mass());
 
     let held: BTreeMap<String, f64> = file.get("held").map_or(BTreeMap::new(), |held| {
@@ -68,6 +68,13 @@ pub(crate) fn same_robot(urdf: &str, imported: &Imported, yaw: f64, allowed: All
             let angle = random();
             ours.insert(role.clone(), angle);
             theirs.insert(name.clone(), sign * angle);
+        }
+        for (name, angle) in &held {
+            let (part, deflection) = (format!("held {name}"), 0.2 * random());
+            if mechanism.joints.iter().any(|joint| joint.name == part) {
+                ours.insert(part, deflection);
+                theirs.insert(name.clone(), angle + deflection);
+            }
         }
         let (ours, theirs) = (mechanism.poses(&ours), urdf.poses(&theirs));
         // the right foot stays where it was
@@ -162,7 +169,9 @@ pub(crate) fn same_numbers(one: &Imported, other: &Imported) {
     for (name, joint) in one["joint"].as_table().unwrap() {
         let same = other["joint"][name].as_table().unwrap();
         assert_eq!(joint.as_table().unwrap().len(), same.len(), "{name}");
-        for (key, value) in joint.as_table().unwrap().iter().filter(|(key, _)| *key != "urdf") {
+        for (key, value) in
+            joint.as_table().unwrap().iter().filter(|(key, _)| !["urdf", "parent_held"].contains(&key.as_str()))
+        {
             assert!(near(value, &same[key]), "{name}.{key}: {value} and {}", same[key]);
         }
     }
