@@ -96,7 +96,7 @@ fn the_arrival_is_waited_for_and_the_way_left_is_told() {
     let ended = send.finish();
     assert_eq!(
         ended.stdout,
-        "accepted: speed 1, to x 1.000 m, y -0.500 m, heading 90°, seen from the robot, there in 7.5 s, from \
+        "accepted: speed 1, goal x 1.000 m, y -0.500 m, heading 90°, seen from the robot, there in 7.5 s, from \
          half-step 3\narrived\n"
     );
     assert_eq!((ended.code, &*ended.stderr), (Some(0), "goal in 1.2 m, 1 place left\n"));

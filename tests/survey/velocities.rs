@@ -23,6 +23,9 @@ pub(crate) struct Options {
     /// In MuJoCo instead of our plant
     #[arg(long)]
     mujoco: bool,
+    /// The first seed
+    #[arg(long, default_value_t = 0)]
+    first: u64,
 }
 
 /// A velocity is judged once all of it has been in effect for this long (s): a speed takes a ramp of 1.2 s.
@@ -51,12 +54,12 @@ struct Stream {
 }
 
 pub(crate) fn survey(options: &Options) -> bool {
-    let streams = on_all_cores(options.seeds as usize, |seed| stream(seed as u64, options));
+    let streams = on_all_cores(options.seeds as usize, |seed| stream(options.first + seed as u64, options));
     let rows: Vec<Vec<String>> = streams
         .iter()
         .enumerate()
         .map(|(seed, Stream { verdicts, measured, missed, worst, fall })| {
-            let mut row = vec![seed.to_string()];
+            let mut row = vec![(options.first + seed as u64).to_string()];
             row.extend(verdicts.map(|count| count.to_string()));
             row.extend([measured.to_string(), missed.to_string(), format!("{:.3} {}", worst.0, worst.1)]);
             row.push(fall.clone().unwrap_or_else(|| "walks".into()));

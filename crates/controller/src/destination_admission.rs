@@ -3,13 +3,13 @@
 
 use std::cell::Cell;
 
-use interface::{ActiveLimit, Footstep, Objection, Places, Reason, Verdict};
-use pattern::{Feasibility, FootstepFault, FootstepProblem, Gait, KNOT, PatternGenerator};
+use interface::{ActiveLimit, Command, Footstep, Objection, Places, Reason, Verdict};
+use pattern::{Feasibility, FootstepFault, FootstepProblem, Gait, GaitState, KNOT, PatternGenerator};
 
 use crate::admission_job::{AdmissionJob, Decision, objection};
 
 /// Shares of the speed factor at which footsteps are tried, and of the largest half-steps to way-points.
-const SHARES: [f64; 5] = [1.0, 0.85, 0.7, 0.55, 0.4];
+const SHARES: [f64; 6] = [1.0, 0.85, 0.7, 0.55, 0.4, 0.28];
 /// Most knots of a way that are simulated: 40 s. The rest is more of the same.
 const KNOTS_MAX: usize = 4000;
 /// Farthest place (m): longer than anyone walks, so that a farther one is a mistake of unit.
@@ -29,8 +29,10 @@ impl AdmissionJob {
         let limits = self.generator.walk().limits();
         let granted_speed = asked.clamp(limits.speed_min, limits.speed_max);
         let speed_min = limits.speed_min;
-        // What the walk in force violates is no reason to refuse the way out of it.
-        let base = self.generator.gait_state().is_stepping().then(|| self.simulate(&in_force.into()).1);
+        // What the walk in force violates, or a start to the nominal walk, is no reason to refuse a way.
+        let in_force_or_nominal =
+            if self.generator.gait_state() == GaitState::Walking { in_force } else { Command::NOMINAL };
+        let base = self.simulate(&in_force_or_nominal.into()).1;
         let mut first = None;
         for share in SHARES {
             let (speed, share) = match places {
@@ -38,14 +40,14 @@ impl AdmissionJob {
                 Places::Footsteps(_) => ((granted_speed * share).max(speed_min), 1.0),
             };
             let (feasibility, arrival) = self.simulate_way(places, speed, share);
-            let is_feasible = feasibility.violation.is_none()
-                || base.as_ref().is_some_and(|base| base.violation.is_some() && feasibility.is_no_worse_than(base));
+            let is_feasible = feasibility.is_no_worse_than(&base);
             let violated = feasibility
                 .violation
                 .as_ref()
                 .map(|violation| (objection(violation), self.place_of(places, feasibility.violated_in)));
-            first = first.or(violated);
-            if is_feasible {
+            if !is_feasible {
+                first = first.or(violated);
+            } else {
                 self.share = share;
                 let is_less = speed != asked || first.is_some();
                 let range = (speed != asked && first.is_none()).then_some(Objection {
@@ -54,7 +56,7 @@ impl AdmissionJob {
                 });
                 return Decision {
                     verdict: if is_less { Verdict::Limited } else { Verdict::Accepted },
-                    granted: interface::Command { speed, ..in_force },
+                    granted: Command { speed, ..in_force },
                     objection: first.map(|(objection, _)| objection).or(range),
                     place: first.and_then(|(_, place)| place),
                     predicted_margin: Some(feasibility.margin).filter(|margin| margin.is_finite()),
@@ -79,7 +81,7 @@ impl AdmissionJob {
             let distance = ((x - here.x) * (x - here.x) + (y - here.y) * (y - here.y)).sqrt();
             let objection = if !(x.is_finite() && y.is_finite() && heading.is_finite()) {
                 plain(Reason::NotFinite)
-            } else if !(distance <= DISTANCE_MAX && heading.abs() <= DISTANCE_MAX) {
+            } else if distance > DISTANCE_MAX {
                 let active_limit = Some(ActiveLimit { joint: None, value: distance, limit: DISTANCE_MAX });
                 Objection { reason: Reason::TooFar, active_limit }
             } else {

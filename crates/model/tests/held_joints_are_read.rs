@@ -58,6 +58,15 @@ fn impossible_held_joints_are_refused_with_their_lines() {
     refused("parent_held = \"left_shoulder_roll_joint\"", "parent_held = \"nobody\"", "parent_held");
     refused("parent_held = \"right_shoulder_yaw_joint\"", "parent_held = \"waist_yaw_joint\"", "with the parent");
     let held = text.find("[[held]]").expect("it has held joints");
+    let errors = read(&format!("{text}\n{}", &text[held..])).expect_err("each is held twice");
+    assert!(errors.contains("must be held once, and held[0] is that joint already"), "{errors}");
+    refused(
+        "urdf = \"right_wrist_yaw_joint\"",
+        "urdf = \"right_knee_joint\"",
+        "joint.right_knee is that joint already",
+    );
+    let far = format!("{}{}", &text[..held], text[held..].replacen("origin_m = [", "origin_m = [9e9, ", 1));
+    assert!(!read(&far).expect_err("four numbers").contains("NaN"), "what is no number is told once");
     let (joints, tables) = text.split_at(held);
     let heavy = format!("{joints}{}", tables.replacen("mass_kg = ", "mass_kg = 9", 1));
     let errors = read(&heavy).expect_err("more than all of the link");

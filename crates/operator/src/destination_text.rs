@@ -3,16 +3,15 @@
 use interface::{Destination, PlaceFrame, Places, Reply, Request, Waypoint};
 
 /// A destination, and when the robot will stand there.
-pub(crate) fn destination_text(destination: &Destination, reply: &Reply) -> String {
+pub(crate) fn destination_text(destination: &Destination, request: &Request, reply: &Reply) -> String {
     let way = match &destination.places {
         Places::Waypoints(waypoints) => {
             let (Waypoint { x, y, heading }, before) = (waypoints[waypoints.len() - 1], waypoints.len() - 1);
-            let through =
-                if before == 0 { String::new() } else { format!("through {} ", counted(before, "way-point")) };
+            let through = if before == 0 { String::new() } else { format!("{} and ", counted(before, "way-point")) };
             let heading = heading.map_or(String::new(), |heading| {
                 format!(", heading {}°", (heading.to_degrees() * 10.0).round() / 10.0 + 0.0)
             });
-            format!("{through}to x {}, y {}{heading}", metres(x), metres(y))
+            format!("{through}goal x {}, y {}{heading}", metres(x), metres(y))
         }
         Places::Footsteps(footsteps) => counted(footsteps.len(), "footstep"),
     };
@@ -21,7 +20,14 @@ pub(crate) fn destination_text(destination: &Destination, reply: &Reply) -> Stri
         PlaceFrame::Robot => ", seen from the robot",
     };
     let arrival = reply.arrival.map_or(String::new(), |arrival| format!(", there in {arrival:.1} s"));
-    way + frame + &arrival
+    // A speed that was not asked for is told where it is not the usual one.
+    let asks_speed = request.gait.speed.is_some();
+    let speed = if asks_speed || reply.granted.speed == 1.0 { String::new() } else { speed_text(reply.granted.speed) };
+    way + frame + &speed + &arrival
+}
+
+fn speed_text(speed: f64) -> String {
+    format!(", at speed {}", (speed * 1e3).round() / 1e3)
 }
 
 fn counted(count: usize, what: &str) -> String {
@@ -100,11 +106,11 @@ mod tests {
         let heading = Some(90_f64.to_radians());
         assert_eq!(
             text(waypoints(&[heading]), PlaceFrame::Walk),
-            "accepted: to x 3.000 m, y -2.000 m, heading 90°, there in 12.3 s, from half-step 12"
+            "accepted: goal x 3.000 m, y -2.000 m, heading 90°, there in 12.3 s, from half-step 12"
         );
         assert_eq!(
             text(waypoints(&[heading, heading, None]), PlaceFrame::Robot),
-            "accepted: through 2 way-points to x 3.000 m, y -2.000 m, seen from the robot, there in 12.3 s, from \
+            "accepted: 2 way-points and goal x 3.000 m, y -2.000 m, seen from the robot, there in 12.3 s, from \
              half-step 12"
         );
         let faster = Request {

