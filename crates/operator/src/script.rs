@@ -11,7 +11,7 @@
 //! of it is 0, and zero is a stand.
 //!
 //! The third is a destination in the walk frame, or an array of way-points to it; the fourth is footsteps, here seen
-//! from the robot (see [`place_json`](crate::place_json)). Of the gait parameters only a speed goes with either.
+//! from the robot (see `place_json`). Of the gait parameters only a speed goes with either.
 //!
 //! `t` is the time since the start (s) and must not decrease; a request without it is due at once. At least one of the
 //! other keys is required. Empty lines are skipped. A request's id is the number of its line.
