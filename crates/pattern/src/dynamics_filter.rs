@@ -188,6 +188,12 @@ impl DynamicsFilter {
         self.correction_input
     }
 
+    /// The footsteps at the farthest knot.
+    #[cfg(test)]
+    pub(crate) fn farthest_footsteps(&self) -> &FootstepPlan {
+        &self.foot_trajectory.footsteps
+    }
+
     fn slot(&self, ahead: usize) -> usize {
         (self.present + ahead) % self.knots.len()
     }

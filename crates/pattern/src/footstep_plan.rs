@@ -139,7 +139,10 @@ impl FootstepPlan {
         let half_steps = self.pace.half_steps(&self.begun_with, &self.command);
         let next = self.pace.towards(&self.begun_with, &self.command);
         let before = std::mem::replace(&mut self.begun_with, next);
-        self.walk.redirect(&next, &before) + half_steps.saturating_sub(1)
+        let effect_half_step = self.walk.redirect(&next, &before);
+        // The half-step after it goes on from there.
+        self.apply_command();
+        effect_half_step + half_steps.saturating_sub(1)
     }
 
     /// Lets the walk follow the command as far as the gait state allows: in place without extension and no faster than

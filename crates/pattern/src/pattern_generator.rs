@@ -382,4 +382,28 @@ mod tests {
             assert!(matches!(generator.gait_state(), GaitState::Stopping { .. }), "after {ticks} ticks");
         }
     }
+
+    /// What is planned ahead must be what is made, whatever is requested when: else the body is planned over other feet
+    /// than it stands on.
+    #[test]
+    fn what_is_planned_ahead_stands_on_the_footsteps_that_are_made() {
+        let mut generator = walking();
+        let velocities = [(0.5, 0.0, 0.0), (0.1, 0.1, -0.5), (-0.2, 0.0, 0.6), (0.3, -0.1, 0.0), (0.0, 0.0, 0.8)];
+        let paces = [Pace::InStep, Pace::Quick, Pace::Gradual, Pace::InStep];
+        for request in 0..60 {
+            advance(&mut generator, 137 + 61 * (request % 11));
+            let (ahead, left, turn) = velocities[request as usize % velocities.len()];
+            let command = generator.command_at(&WalkVelocity { ahead, left, turn });
+            generator.admit_at(paces[request as usize % paces.len()], &command.into());
+            generator.set_goal(Goal::Walk);
+            for _ in 0..40 {
+                let is_foreseen = generator.plan.foresees_its_footsteps(&generator.model);
+                assert!(is_foreseen, "request {request}, {:?}", generator.half_step());
+                advance(&mut generator, 41);
+                if generator.half_step().progress > 0.5 {
+                    break;
+                }
+            }
+        }
+    }
 }

@@ -244,6 +244,27 @@ impl Plan {
     }
 }
 
+#[cfg(test)]
+impl Plan {
+    /// Whether the knots that were planned ahead stand on the footsteps that will be made.
+    pub(crate) fn foresees_its_footsteps(&self, model: &PatternModel) -> bool {
+        let mut ahead = self.footsteps().clone();
+        let foreseen = self.dynamics_filter.farthest_footsteps();
+        let end = foreseen.walk.half_step();
+        for _ in 0..1000 {
+            let now = ahead.walk.half_step();
+            if now.index == end.index && now.progress >= end.progress - 1e-9 {
+                break;
+            }
+            ahead.advance(model);
+        }
+        let [made, planned] = [&ahead, foreseen].map(|plan| plan.feet.footprint.pose());
+        (made.x - planned.x).abs().max((made.y - planned.y).abs()) < 1e-9
+            && (made.heading - planned.heading).abs() < 1e-9
+            && ahead.walk.half_step().index == end.index
+    }
+}
+
 /// The centre of mass along x and y of the walk frame, from its position (m) and velocity (m/s) in support coordinates.
 fn cart_states(footprint: &Footprint, position: Vector2<f64>, velocity: Vector2<f64>) -> [CartState; 2] {
     let position = footprint.point_to_walk(position);
