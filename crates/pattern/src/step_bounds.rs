@@ -120,15 +120,19 @@ impl StepBounds {
         self.within(&wish, lead, last)
     }
 
-    /// About how many half-steps take the robot straight to a goal. It turns in proportion to the way, so that it faces
-    /// half of the turn on average. Only every other half-step goes to a given side.
+    /// About how many half-steps take the robot straight to a goal. It turns in proportion to the way, so that all
+    /// headings between count alike: their mean by Simpson's rule. Only every other half-step goes to a given side.
     fn half_steps(&self, goal: &GoalPose) -> f64 {
         let turn = goal.turn.unwrap_or(0.0);
-        let mean = WalkPose { heading: 0.5 * turn, ..WalkPose::default() };
-        let WalkPose { x, y, .. } = pose_seen_from(&mean, &WalkPose { x: goal.x, y: goal.y, heading: 0.0 });
-        let along = x / if x < 0.0 { self.back } else { self.ahead };
-        let (aside, turn) = (2.0 * y / self.aside, 2.0 * turn / self.turn);
-        (along * along + aside * aside + turn * turn).sqrt()
+        let to_turn = 2.0 * turn / self.turn;
+        let facing = |heading: f64| {
+            let here = WalkPose { heading, ..WalkPose::default() };
+            let WalkPose { x, y, .. } = pose_seen_from(&here, &WalkPose { x: goal.x, y: goal.y, heading: 0.0 });
+            let along = x / if x < 0.0 { self.back } else { self.ahead };
+            let aside = 2.0 * y / self.aside;
+            (along * along + aside * aside + to_turn * to_turn).sqrt()
+        };
+        (facing(0.0) + 4.0 * facing(0.5 * turn) + facing(turn)) / 6.0
     }
 
     /// The part of a wish that the next half-step makes.
@@ -188,7 +192,7 @@ mod tests {
 
         /// The oracle: walking there by turning, walking ahead and turning, one after the other.
         #[test]
-        fn every_goal_is_reached_in_hardly_more_than_the_half_steps_that_one_thing_after_the_other_takes(
+        fn every_goal_is_reached_in_about_as_many_half_steps_as_one_thing_after_the_other_takes(
             x in -6.0..6.0, y in -6.0..6.0, heading in -3.2..3.2, any_heading: bool, left: bool,
         ) {
             let goal = WalkPose { x, y, heading };
@@ -196,7 +200,7 @@ mod tests {
             let (distance, bearing) = (x.hypot(y), y.atan2(x));
             let turns = bearing.abs() + if any_heading { 0.0 } else { within_half_turn(heading - bearing).abs() };
             let in_turn = distance / BOUNDS.ahead + 2.0 * turns / BOUNDS.turn;
-            prop_assert!((steps.len() as f64) < 1.9 * in_turn + 8.0, "{} half-steps, {in_turn}", steps.len());
+            prop_assert!((steps.len() as f64) < 1.35 * in_turn + 8.0, "{} half-steps, {in_turn}", steps.len());
         }
 
         #[test]
