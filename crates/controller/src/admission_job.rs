@@ -167,7 +167,7 @@ impl AdmissionJob {
         };
         let (mut requested, mut feasibility) = self.simulate(&change);
         if velocity.is_some() && !self.check.is_ample(&feasibility) {
-            // The half-step that is on ends as planned; the next one begins the change.
+            // The present half-step ends as planned; the next one begins the change.
             self.pace = Pace::Quick;
             (requested, feasibility) = self.simulate(&change);
         }

@@ -1,5 +1,5 @@
-//! What of a request to walk to a destination can be granted: the whole way is simulated before, more easily each time
-//! it violates a limit.
+//! What of a request to walk to a destination can be granted: the whole way is simulated, with slower or smaller steps
+//! as long as it violates a limit.
 
 use std::cell::Cell;
 
@@ -27,8 +27,7 @@ impl AdmissionJob {
         }
         let asked = speed.unwrap_or(1.0);
         let limits = self.generator.walk().limits();
-        let granted_speed = asked.clamp(limits.speed_min, limits.speed_max);
-        let speed_min = limits.speed_min;
+        let (speed_min, speed_in_range) = (limits.speed_min, asked.clamp(limits.speed_min, limits.speed_max));
         // What the walk in force violates, or a start to the nominal walk, is no reason to refuse a way.
         let in_force_or_nominal =
             if self.generator.gait_state() == GaitState::Walking { in_force } else { Command::NOMINAL };
@@ -36,38 +35,37 @@ impl AdmissionJob {
         let mut first = None;
         for share in SHARES {
             let (speed, share) = match places {
-                Places::Waypoints(_) => (granted_speed, share),
-                Places::Footsteps(_) => ((granted_speed * share).max(speed_min), 1.0),
+                Places::Waypoints(_) => (speed_in_range, share),
+                Places::Footsteps(_) => ((speed_in_range * share).max(speed_min), 1.0),
             };
             let (feasibility, arrival) = self.simulate_way(places, speed, share);
-            let is_feasible = feasibility.is_no_worse_than(&base);
             let violated = feasibility
                 .violation
                 .as_ref()
                 .map(|violation| (objection(violation), self.place_of(places, feasibility.violated_in)));
-            if !is_feasible {
+            if !feasibility.is_no_worse_than(&base) {
                 first = first.or(violated);
-            } else {
-                self.share = share;
-                let is_less = speed != asked || first.is_some();
-                let range = (speed != asked && first.is_none()).then_some(Objection {
-                    reason: Reason::SpeedLimit,
-                    active_limit: Some(ActiveLimit { joint: None, value: asked, limit: speed }),
-                });
-                return Decision {
-                    verdict: if is_less { Verdict::Limited } else { Verdict::Accepted },
-                    granted: Command { speed, ..in_force },
-                    objection: first.map(|(objection, _)| objection).or(range),
-                    place: first.and_then(|(_, place)| place),
-                    predicted_margin: Some(feasibility.margin).filter(|margin| margin.is_finite()),
-                    arrival,
-                    walk: match places {
-                        Places::Waypoints(_) => Some(self.generator.walk_to_waypoints(speed, share)),
-                        Places::Footsteps(_) => None,
-                    },
-                    ..unchanged
-                };
+                continue;
             }
+            self.share = share;
+            let range = (speed != asked).then_some(Objection {
+                reason: Reason::SpeedLimit,
+                active_limit: Some(ActiveLimit { joint: None, value: asked, limit: speed }),
+            });
+            let objection = first.map(|(objection, _)| objection).or(range);
+            return Decision {
+                verdict: if objection.is_some() { Verdict::Limited } else { Verdict::Accepted },
+                granted: Command { speed, ..in_force },
+                objection,
+                place: first.and_then(|(_, place)| place),
+                predicted_margin: Some(feasibility.margin).filter(|margin| margin.is_finite()),
+                arrival,
+                walk: match places {
+                    Places::Waypoints(_) => Some(self.generator.walk_to_waypoints(speed, share)),
+                    Places::Footsteps(_) => None,
+                },
+                ..unchanged
+            };
         }
         let (objection, place) = first.unwrap_or((Objection { reason: Reason::LegReach, active_limit: None }, None));
         refused(objection, place)

@@ -134,7 +134,7 @@ impl Walk {
         effect_half_step
     }
 
-    /// Puts `command` into force as [`force`](Self::force) does, and lets the half-step that is on end by it already as
+    /// Puts `command` into force as [`force`](Self::force) does, and lets the present half-step end by it already as
     /// far as its swing foot can lead. Returns the half-step from which on all of it is in effect.
     ///
     /// * `before` – the command by which the half-step has begun

@@ -22,7 +22,7 @@ pub(crate) struct Course {
     /// How many places the footsteps have reached, the one in the making included.
     reached: usize,
     /// How the robot walks to the next way-point.
-    way: Option<Approach>,
+    approach: Option<Approach>,
     bounds: StepBounds,
     /// Half-steps made near the goal.
     half_steps_near: u32,
@@ -37,10 +37,12 @@ pub(crate) struct CourseStep {
     pub stance: Option<Stance>,
 }
 
-/// How near to the goal the robot comes to a stand (m), and how near to its heading (rad). With each half-step that it
-/// has made within [`NEAR`] of the goal as much again is enough: on soles that slip or yield it would step for ever.
+/// How near to the goal the robot comes to a stand (m), and how near to its heading (rad). Each half-step
+/// within [`NEAR`] of the goal adds as much again, up to [`ARRIVED_TIMES_MAX`] times: where soles slip or yield, the
+/// robot would never stop stepping.
 const ARRIVED: f64 = 0.004;
 const ARRIVED_TURN: f64 = 0.008;
+const ARRIVED_TIMES_MAX: u32 = 4;
 /// Near the goal: as a share of the largest half-step.
 const NEAR: f64 = 0.1;
 /// How near a way-point is passed, as a share of the largest half-step, and how near to its heading (rad).
@@ -52,7 +54,7 @@ impl Course {
     ///
     /// * `frame` – of the places, in the walk frame of the plan
     pub(crate) fn new(places: &Places, frame: WalkPose, bounds: StepBounds) -> Self {
-        Self { places: *places, frame, reached: 0, way: None, bounds, half_steps_near: 0 }
+        Self { places: *places, frame, reached: 0, approach: None, bounds, half_steps_near: 0 }
     }
 
     /// The places.
@@ -122,16 +124,16 @@ impl Course {
         let goal = waypoints.len() - 1;
         let passed = |waypoint: &Waypoint| is_near(waypoint, PASSED * self.bounds.ahead, PASSED_TURN);
         let reached = self.reached + waypoints[self.reached..goal].iter().take_while(|&place| passed(place)).count();
-        let enough = 1.0 + f64::from(self.half_steps_near);
+        let enough = 1.0 + f64::from(self.half_steps_near.min(ARRIVED_TIMES_MAX - 1));
         let arrives = reached == goal && is_near(&waypoints[goal], enough * ARRIVED, enough * ARRIVED_TURN);
         let is_close = reached == goal && is_near(&waypoints[goal], NEAR * self.bounds.ahead, PASSED_TURN);
         let step = if arrives {
             WalkPose::default()
         } else {
-            let (goal, before) = (seen(&waypoints[reached]), self.way.filter(|_| reached == self.reached));
-            let way = self.bounds.approach_to(&goal, before);
-            self.way = Some(way);
-            self.bounds.towards(&goal, way, lead, &last)
+            let (goal, before) = (seen(&waypoints[reached]), self.approach.filter(|_| reached == self.reached));
+            let approach = self.bounds.approach_to(&goal, before);
+            self.approach = Some(approach);
+            self.bounds.towards(&goal, approach, lead, &last)
         };
         let [sole] = poses_in_frame_of(&now, &[step]);
         let [sole] = poses_in_frame_of(&sole, &[beside]);

@@ -59,7 +59,7 @@ impl FootTrajectory {
         event == FootstepEvent::SupportChange
     }
 
-    /// Lets the half-step that is on change over to the command already, if there is time. Returns the half-step from
+    /// Lets the present half-step change over to the command already, if there is time. Returns the half-step from
     /// which on all of it is in effect then.
     pub(crate) fn redirect(&mut self, model: &PatternModel) -> Option<u64> {
         let Self { footsteps, swing, adjustment, hips } = self;

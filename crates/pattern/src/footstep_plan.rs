@@ -133,7 +133,7 @@ impl FootstepPlan {
         }
     }
 
-    /// Lets the half-step that is on begin to change over to the command, which is in force already. Returns the
+    /// Lets the present half-step begin to change over to the command, which is in force already. Returns the
     /// half-step from which on all of it is.
     pub(crate) fn redirect(&mut self) -> u64 {
         let half_steps = self.pace.half_steps(&self.begun_with, &self.command);

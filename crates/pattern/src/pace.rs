@@ -7,7 +7,7 @@ use interface::Command;
 pub enum Pace {
     /// All of it, as soon as each parameter can change: what gait parameters ask for.
     AtOnce,
-    /// As [`Quick`](Self::Quick), beginning with the half-step that is on, unless it is too late for that.
+    /// As [`Quick`](Self::Quick), beginning with the present half-step, unless it is too late for that.
     InStep,
     /// Most of it: two or three half-steps from one end of the range to the other.
     Quick,

@@ -40,8 +40,8 @@ pub(crate) enum Approach {
     Facing,
 }
 
-/// How short another way must be for a robot to leave the straight one, as a share of that. No two ways take turns
-/// then.
+/// How short the other approach must be for a robot to leave the straight one, as a share of that: so they never
+/// alternate.
 const SHARE_TO_LEAVE: f64 = 0.7;
 /// Shares of the configured range: the rest is left for balance.
 const SHARE_OF_SIDESTEP: f64 = 0.75;
@@ -89,10 +89,10 @@ impl StepBounds {
         SteadyWalk { step_ahead: self.ahead, step_aside: self.aside, velocity }
     }
 
-    /// Which way takes fewer half-steps to a goal.
+    /// Which approach takes fewer half-steps to a goal.
     ///
     /// * `goal` – seen from the middle between the feet
-    /// * `before` – the way so far: straight on is left for another one only if that is much shorter
+    /// * `before` – the approach so far: the straight one is left only for one that is much shorter
     pub(crate) fn approach_to(&self, goal: &GoalPose, before: Option<Approach>) -> Approach {
         let distance = (goal.x * goal.x + goal.y * goal.y).sqrt();
         let bearing = atan2(goal.y, goal.x);
@@ -108,8 +108,8 @@ impl StepBounds {
     /// * `goal` – seen from the middle between the feet
     /// * `lead` – 1 if the left foot swings, −1 if the right one does
     /// * `last` – what the half-step before has moved
-    pub(crate) fn towards(&self, goal: &GoalPose, way: Approach, lead: f64, last: &WalkPose) -> WalkPose {
-        let wish = match way {
+    pub(crate) fn towards(&self, goal: &GoalPose, approach: Approach, lead: f64, last: &WalkPose) -> WalkPose {
+        let wish = match approach {
             Approach::Straight => WalkPose { x: goal.x, y: goal.y, heading: goal.turn.unwrap_or(0.0) },
             Approach::Facing => {
                 let bearing = atan2(goal.y, goal.x);
