@@ -1,8 +1,7 @@
 //! Random velocities in every direction, in our plant or in MuJoCo: no fall, and what is granted is walked.
 
-use dynamics::pose_seen_from;
 use halfstep_tests::random;
-use halfstep_tests::velocity::{random_velocity, to_half_circle, true_pose};
+use halfstep_tests::velocity::{MeanVelocity, random_velocity, true_pose};
 use halfstep_tests::walking::{Walking, controller_parameters, plant_parameters};
 use interface::{Reply, Request, Source, Verdict, WalkPose, WalkVelocity};
 use plant::Disturbances;
@@ -132,7 +131,9 @@ impl Stream {
             return;
         }
         let asked = reply.walk.velocity;
-        let walked = mean_velocity(&path[from..=end]);
+        let mut walked = MeanVelocity::since(path[from].time, path[from].pose);
+        path[from..=end].iter().for_each(|sample| walked.add(sample.time, sample.pose));
+        let walked = walked.value();
         let lost = (asked.ahead - walked.ahead).hypot(asked.left - walked.left);
         self.measured += 1;
         if lost > (0.1 * asked.ahead.hypot(asked.left)).max(0.02) {
@@ -145,18 +146,4 @@ impl Stream {
             self.worst = (lost, format!("{} for {}", at(&walked), at(&asked)));
         }
     }
-}
-
-/// Seen from the robot.
-fn mean_velocity(path: &[Sample]) -> WalkVelocity {
-    let mut sum = WalkPose::default();
-    for pair in path.windows(2) {
-        let [before, now] = pair else { continue };
-        let (before, now) = (&before.pose, &now.pose);
-        let turned = to_half_circle(now.heading - before.heading);
-        let seen = pose_seen_from(&WalkPose { heading: before.heading + turned / 2.0, ..*before }, now);
-        (sum.x, sum.y, sum.heading) = (sum.x + seen.x, sum.y + seen.y, sum.heading + turned);
-    }
-    let time = path.last().map_or(1.0, |last| last.time) - path.first().map_or(0.0, |first| first.time);
-    WalkVelocity { ahead: sum.x, left: sum.y, turn: sum.heading }.scaled(1.0 / time)
 }

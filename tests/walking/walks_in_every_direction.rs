@@ -7,7 +7,7 @@
 use controller::Tick;
 use dynamics::pose_seen_from;
 use halfstep_tests::random;
-use halfstep_tests::velocity::{random_velocity, to_half_circle, true_pose};
+use halfstep_tests::velocity::{MeanVelocity, random_velocity, to_half_circle, true_pose};
 use halfstep_tests::walking::Walking;
 use interface::{
     GaitChange, HalfStep, Mode, Odometry, Reason, Reply, Request, Source, Verdict, WalkPose, WalkVelocity,
@@ -26,20 +26,13 @@ fn ask(walking: &mut Walking, velocity: WalkVelocity) -> Reply {
 
 /// The mean velocity over some seconds, seen from the robot.
 fn walked(walking: &mut Walking, seconds: f64) -> WalkVelocity {
-    let (mut before, mut sum) = (true_pose(walking), WalkPose::default());
+    let mut mean = MeanVelocity::since(walking.time(), true_pose(walking));
     let end = walking.time() + seconds;
     while walking.time() < end {
         walking.walk(0.05);
-        let now = true_pose(walking);
-        let turned = to_half_circle(now.heading - before.heading);
-        let between = WalkPose { heading: before.heading + turned / 2.0, ..before };
-        let seen = pose_seen_from(&between, &now);
-        sum.x += seen.x;
-        sum.y += seen.y;
-        sum.heading += turned;
-        before = now;
+        mean.add(walking.time(), true_pose(walking));
     }
-    WalkVelocity { ahead: sum.x, left: sum.y, turn: sum.heading }.scaled(1.0 / seconds)
+    mean.value()
 }
 
 fn assert_near(asked: &WalkVelocity, granted: &WalkVelocity, walked: &WalkVelocity) {

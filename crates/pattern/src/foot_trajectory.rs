@@ -9,7 +9,6 @@ use crate::footstep_plan::{FootstepEvent, FootstepPlan};
 use crate::gait_state::GaitState;
 use crate::hip_height::HipHeight;
 use crate::knot::KNOT;
-use crate::modified_half_step::ModifiedHalfStep;
 use crate::pattern_model::PatternModel;
 use crate::step_adjustment::StepAdjustment;
 use crate::swing_path::SwingPath;
@@ -50,7 +49,7 @@ impl FootTrajectory {
             *adjustment = StepAdjustment::default();
         }
         if event == FootstepEvent::SupportChange {
-            let swing_sole = |progress| swing.at(progress, &footsteps.swing_sole(model, progress));
+            let swing_sole = |progress| swing.at(progress, &footsteps.modified(model, progress));
             hips.begin_half_step(half_duration(model, &footsteps.walk), swing_sole);
         }
         if footsteps.gait_state.is_standing() {
@@ -69,7 +68,7 @@ impl FootTrajectory {
         }
         let effect_half_step = footsteps.redirect();
         let landing = footsteps.landing(model);
-        let modified = |progress| footsteps.swing_sole(model, progress);
+        let modified = |progress| footsteps.modified(model, progress);
         swing.redirect(progress, &landing, modified);
         let swing_sole = |progress| swing.at(progress, &modified(progress));
         hips.redirect(progress, half_duration(model, &footsteps.walk), swing_sole);
@@ -135,8 +134,8 @@ impl FootTrajectory {
         let walk = &self.footsteps.walk;
         let progress = walk.half_step().progress;
         let nominal = walk.table().angles_at(progress);
-        let modified = ModifiedHalfStep::new(model, walk, progress);
-        let mut swing_sole = self.swing.at(progress, &modified.swing_sole);
+        let modified = model.modified(walk, progress);
+        let mut swing_sole = self.swing.at(progress, &modified);
         let [offset, ..] = self.adjustment.at(progress);
         swing_sole.position += Vector3::new(offset.x, offset.y, 0.0);
         WholeBodyTask {
@@ -178,6 +177,6 @@ fn half_duration(model: &PatternModel, walk: &Walk) -> f64 {
 }
 
 fn swing_path(model: &PatternModel, footsteps: &FootstepPlan) -> SwingPath {
-    let modified = |progress| footsteps.swing_sole(model, progress);
+    let modified = |progress| footsteps.modified(model, progress);
     SwingPath::new(&footsteps.feet.lift_off, &footsteps.feet.landing, modified)
 }

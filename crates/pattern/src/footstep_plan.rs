@@ -48,7 +48,7 @@ pub(crate) enum FootstepEvent {
 impl FootstepPlan {
     /// A walk at the very beginning of its first half-step.
     pub(crate) fn walking(model: &PatternModel, walk: Walk) -> Self {
-        let lift_off = ModifiedHalfStep::new(model, &walk, walk.half_step().progress).swing_sole;
+        let lift_off = model.modified(&walk, walk.half_step().progress).swing_sole;
         let footprint = Footprint::first(walk.half_step().support);
         let command = walk.command();
         let feet = Feet { footprint, lift_off, landing: lift_off };
@@ -231,7 +231,7 @@ impl FootstepPlan {
 
     /// Where the swing sole of the present half-step lands.
     pub(crate) fn landing(&self, model: &PatternModel) -> SolePose {
-        let mut landing = self.swing_sole(model, 1.0);
+        let mut landing = self.modified(model, 1.0).swing_sole;
         landing.position.z = 0.0;
         match self.gait_state {
             GaitState::Stopping { half_steps: 1, stance: Stance::Parallel, .. } => beside_support(model, 0.0, 0.0),
@@ -242,9 +242,9 @@ impl FootstepPlan {
         }
     }
 
-    /// The swing sole of the modified half-step at a progress.
-    pub(crate) fn swing_sole(&self, model: &PatternModel, progress: f64) -> SolePose {
-        ModifiedHalfStep::new(model, &self.walk, progress).swing_sole
+    /// The modified half-step at a progress.
+    pub(crate) fn modified(&self, model: &PatternModel, progress: f64) -> ModifiedHalfStep {
+        model.modified(&self.walk, progress)
     }
 }
 

@@ -11,13 +11,12 @@
 //!
 //! The legs follow by inverse kinematics. For the paper's robot that gives the paper's offsets, to rounding.
 
-use dynamics::{Kinematics, sin_cos};
-use gait::Walk;
-use model::Side;
+use dynamics::{Kinematics, Tree, sin_cos};
+use gait::{LegOffsets, NominalTable, Walk};
+use model::{LegReach, Mechanism, Side};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::footprint::SolePose;
-use crate::pattern_model::PatternModel;
 
 /// Pelvis and swing sole of the modified half-step, in support coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -26,13 +25,30 @@ pub(crate) struct ModifiedHalfStep {
     pub pelvis: Matrix3<f64>,
     /// Height of the pelvis link's origin in the nominal half-step (m).
     pub nominal_pelvis_height: f64,
+    /// How far ahead of the support sole the swing sole is in the nominal half-step (m).
+    pub nominal_swing_ahead: f64,
     /// The swing sole.
     pub swing_sole: SolePose,
 }
 
+/// The nominal half-step at a progress, with its legs as lines from hip to ankle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct NominalLegs {
+    /// The pelvis.
+    pub pelvis: Placed,
+    /// The swing foot.
+    pub foot: Placed,
+    /// The hips of support and swing leg in the pelvis link (m).
+    pub hips_in_pelvis: [Vector3<f64>; 2],
+    /// The ankles of support and swing leg in the foot links (m).
+    pub ankles_in_foot: [Vector3<f64>; 2],
+    /// The swing sole in its foot link (m).
+    pub sole_in_foot: Vector3<f64>,
+}
+
 /// A link: rotation to support coordinates, and origin (m).
-#[derive(Clone, Copy, Debug)]
-struct Placed {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Placed {
     rotation: Matrix3<f64>,
     origin: Vector3<f64>,
 }
@@ -47,28 +63,42 @@ struct LegAxes {
 }
 
 impl ModifiedHalfStep {
-    /// The half-step of a walk at a progress.
-    pub(crate) fn new(model: &PatternModel, walk: &Walk, progress: f64) -> Self {
+    /// The half-step of a robot's walk at a progress.
+    pub(crate) fn new(mechanism: &Mechanism, tree: &Tree, reach: &LegReach, walk: &Walk, progress: f64) -> Self {
         let turn = walk.turn().per_hip(progress).value;
-        let reach = walk.extension().per_hip(progress).value;
+        let ahead = walk.extension().per_hip(progress).value;
         let spread = walk.sidestep().per_hip(progress).value;
-        Self::of_nominal(model, &Self::nominal(model, walk, progress), turn, reach, spread)
+        let legs = NominalLegs::new(mechanism, tree, reach, walk.table(), progress);
+        legs.modified(&LegOffsets { turn, reach: ahead, spread })
+    }
+}
+
+impl NominalLegs {
+    /// The legs of a nominal half-step at a progress.
+    pub(crate) fn new(
+        mechanism: &Mechanism,
+        tree: &Tree,
+        reach: &LegReach,
+        table: &NominalTable,
+        progress: f64,
+    ) -> Self {
+        let kinematics = Kinematics::fixed_base_up_to_left_foot(tree, &table.angles_at(progress));
+        let [pelvis, foot] = [tree.pelvis(), tree.foot(Side::Left)]
+            .map(|link| Placed { rotation: kinematics.rotation[link], origin: kinematics.origin[link] });
+        Self {
+            pelvis,
+            foot,
+            hips_in_pelvis: reach.hips_in_pelvis,
+            ankles_in_foot: reach.ankles_in_foot,
+            sole_in_foot: mechanism.sole_in_foot(Side::Left),
+        }
     }
 
-    fn nominal(model: &PatternModel, walk: &Walk, progress: f64) -> [Placed; 2] {
-        let kinematics = Kinematics::fixed_base_up_to_left_foot(&model.tree, &walk.table().angles_at(progress));
-        [model.tree.pelvis(), model.tree.foot(Side::Left)]
-            .map(|link| Placed { rotation: kinematics.rotation[link], origin: kinematics.origin[link] })
-    }
-
-    /// * `nominal` – pelvis and swing foot
-    /// * `turn` – offset of either leg about itself (rad)
-    /// * `reach` – by which either leg swings ahead (rad)
-    /// * `spread` – by which either leg swings away from the other one (rad)
-    fn of_nominal(model: &PatternModel, [pelvis, foot]: &[Placed; 2], turn: f64, reach: f64, spread: f64) -> Self {
-        let mechanism = &model.mechanism;
-        let [support_hip, swing_hip] = model.reach.hips_in_pelvis;
-        let [support_ankle, swing_ankle] = model.reach.ankles_in_foot;
+    /// What offsets of the legs make of it.
+    pub(crate) fn modified(&self, &LegOffsets { turn, reach, spread }: &LegOffsets) -> ModifiedHalfStep {
+        let Self { pelvis, foot, .. } = self;
+        let [support_hip, swing_hip] = self.hips_in_pelvis;
+        let [support_ankle, swing_ankle] = self.ankles_in_foot;
 
         // The support leg, from the ground up.
         let up = rotation(&Vector3::x(), -spread) * (pelvis.at(&support_hip) - support_ankle);
@@ -85,11 +115,12 @@ impl ModifiedHalfStep {
         let turned = rotation(&axes.along, turn);
         let ankle = moved.at(&(swing_hip + turned * (rotation(&axes.across, -reach) * down)));
         let sole = moved.rotation * turned * to_pelvis * foot.rotation;
-        let origin = ankle + sole * (mechanism.sole_in_foot(Side::Left) - swing_ankle);
+        let origin = ankle + sole * (self.sole_in_foot - swing_ankle);
 
-        Self {
+        ModifiedHalfStep {
             pelvis: moved.rotation,
             nominal_pelvis_height: pelvis.origin.z,
+            nominal_swing_ahead: foot.at(&self.sole_in_foot).x,
             swing_sole: SolePose::new(origin, &sole.column(0).into_owned()),
         }
     }
@@ -97,7 +128,7 @@ impl ModifiedHalfStep {
 
 impl Placed {
     /// A point of the link, in support coordinates (m).
-    fn at(&self, in_link: &Vector3<f64>) -> Vector3<f64> {
+    pub(crate) fn at(&self, in_link: &Vector3<f64>) -> Vector3<f64> {
         self.origin + self.rotation * in_link
     }
 }
@@ -123,12 +154,12 @@ mod tests {
     use std::time::Duration;
 
     use config::Config;
-    use gait::{GaitParameters, Limits, NominalTable, RampKind, Start};
+    use gait::{GaitParameters, Limits, RampKind, Start};
     use interface::Command;
-    use model::Mechanism;
     use nalgebra::{Isometry3, Translation3};
 
     use super::*;
+    use crate::pattern_model::PatternModel;
 
     fn walk(mechanism: &Mechanism, command: Command) -> Walk {
         let table = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/nominal_half_step.csv");
@@ -165,7 +196,7 @@ mod tests {
                 for progress in [0.0, 0.2, 0.5, 0.77, 1.0] {
                     let angles = walk.angles_at(progress);
                     let kinematics = Kinematics::fixed_base_up_to_left_foot(&model.tree, &angles);
-                    let found = ModifiedHalfStep::new(&model, &walk, progress);
+                    let found = model.modified(&walk, progress);
                     let sole = kinematics.sole_to_world(&mechanism, Side::Left);
                     let expected = SolePose::new(sole.translation.vector, &(sole.rotation * Vector3::x()));
                     let pelvis = kinematics.link_to_world(mechanism.pelvis());
@@ -194,12 +225,11 @@ mod tests {
             let kinematics = Kinematics::fixed_base_up_to_left_foot(&model.tree, &walk.table().angles_at(progress));
             let sole = kinematics.link_to_world(mechanism.foot(Side::Left))
                 * Translation3::from(mechanism.sole_in_foot(Side::Left));
-            let found = ModifiedHalfStep::new(&model, &walk, progress);
+            let found = model.modified(&walk, progress);
             assert!((found.swing_sole.position - sole.translation.vector).norm() < 1e-14);
         }
     }
 
-    /// The legs are seen as lines, so that the landing is met to 15 mm. The path of the swing sole does the rest.
     #[test]
     fn legs_that_are_aimed_land_where_they_are_to() {
         let mechanism = Mechanism::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism.toml")).unwrap();
@@ -209,9 +239,9 @@ mod tests {
         for (x, y, yaw) in [(0.3, width, 0.0), (-0.2, width + 0.1, 0.0), (0.1, width + 0.05, 0.4), (0.0, width, 0.3)] {
             let asked = SolePose { position: Vector3::new(x, y, 0.0), yaw };
             walk.aim(&model.velocity.geometry().legs(&asked));
-            let lands = ModifiedHalfStep::new(&model, &walk, 1.0).swing_sole;
+            let lands = model.modified(&walk, 1.0).swing_sole;
             let off = (lands.position - asked.position).xy().norm();
-            assert!(off < 0.015 && (lands.yaw - yaw).abs() < 0.01, "{asked:?}: {lands:?}");
+            assert!(off < 1e-6 && (lands.yaw - yaw).abs() < 1e-6, "{asked:?}: {lands:?}");
             walk.advance(walk.table().duration);
         }
     }

@@ -1,12 +1,13 @@
 //! The constants of the generator: the robot, its nominal half-step, and the gains that follow from both.
 
 use dynamics::{Kinematics, LegSolver, Tree};
-use gait::NominalTable;
+use gait::{NominalTable, Walk};
 use model::{LegReach, Link, Mechanism, Mirror};
 use nalgebra::Point3;
 
 use crate::knot::KNOT;
 use crate::lipm_residual::LipmResidual;
+use crate::modified_half_step::ModifiedHalfStep;
 use crate::preview_controller::PreviewController;
 use crate::proportions::PatternProportions;
 use crate::walk_velocity::VelocityMap;
@@ -68,6 +69,11 @@ impl PatternModel {
             tree,
             lipm_residual,
         }
+    }
+
+    /// The modified half-step of a walk at a progress.
+    pub(crate) fn modified(&self, walk: &Walk, progress: f64) -> ModifiedHalfStep {
+        ModifiedHalfStep::new(&self.mechanism, &self.tree, &self.reach, walk, progress)
     }
 }
 

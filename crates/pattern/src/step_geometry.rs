@@ -2,16 +2,18 @@
 //!
 //! The legs of the nominal half-step are taken at its end, as lines from hip to ankle; see `modified_half_step`.
 
-use dynamics::{Kinematics, Tree, sin_cos};
+use dynamics::{Tree, sin_cos};
 use gait::{LegOffsets, NominalTable};
-use model::{LegReach, Mechanism, Side};
-use nalgebra::{Matrix2, Vector3};
+use model::{LegReach, Mechanism};
+use nalgebra::{Matrix2, Vector2};
 
 use crate::footprint::SolePose;
+use crate::modified_half_step::NominalLegs;
 
 /// The legs at the end of the nominal half-step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct StepGeometry {
+    legs: NominalLegs,
     /// From hip to ankle of the support leg upward and of the swing leg downward: along x, summed (m).
     ahead: f64,
     /// The same across x, each from the ankle to the hip's height (m).
@@ -24,27 +26,24 @@ pub(crate) struct StepGeometry {
 
 /// Rounds of Newton's method: the error of a step of half a leg's length falls below a nanometre.
 const ROUNDS: usize = 5;
+/// Rounds in which the legs are aimed: each leaves a tenth of the error or less.
+const ROUNDS_TO_AIM: usize = 8;
 /// Largest angle by which either leg is swung (rad): far more than any leg can.
 const SWING_MAX: f64 = 1.0;
 
 impl StepGeometry {
     /// The geometry of a robot with its nominal half-step.
     pub(crate) fn new(mechanism: &Mechanism, table: &NominalTable) -> Self {
-        let tree = Tree::new(mechanism);
-        let kinematics = Kinematics::fixed_base_up_to_left_foot(&tree, &table.angles_at(1.0));
-        let reach = LegReach::of(mechanism);
-        let at = |link, place: &Vector3<f64>| kinematics.origin[link] + kinematics.rotation[link] * place;
-        let [support_hip, swing_hip] = reach.hips_in_pelvis.map(|hip| at(tree.pelvis(), &hip));
-        let support_ankle = reach.ankles_in_foot[0];
-        let swing_ankle = at(tree.foot(Side::Left), &reach.ankles_in_foot[1]);
-        let (up, down) = (support_hip - support_ankle, swing_ankle - swing_hip);
-        let sole = kinematics.sole_to_world(mechanism, Side::Left).translation.vector;
+        let legs = NominalLegs::new(mechanism, &Tree::new(mechanism), &LegReach::of(mechanism), table, 1.0);
+        let [support_hip, swing_hip] = legs.hips_in_pelvis.map(|hip| legs.pelvis.at(&hip));
+        let (up, down) = (support_hip - legs.ankles_in_foot[0], legs.foot.at(&legs.ankles_in_foot[1]) - swing_hip);
         let ahead = up.x + down.x;
         Self {
             ahead,
             height: up.yz().norm() + down.yz().norm(),
-            rest: sole.x - ahead,
+            rest: legs.foot.at(&legs.sole_in_foot).x - ahead,
             width: mechanism.foot_distance(),
+            legs,
         }
     }
 
@@ -87,15 +86,32 @@ impl StepGeometry {
         spread
     }
 
-    /// The offsets of the legs with which the swing sole lands at a place, in support coordinates: to 15 mm, since the
-    /// legs are seen as lines.
+    /// Where the swing sole lands, in support coordinates.
+    pub(crate) fn landing(&self, offsets: &LegOffsets) -> SolePose {
+        self.legs.modified(offsets).swing_sole
+    }
+
+    /// The offsets of the legs with which the swing sole lands at a place, in support coordinates. A place out of
+    /// reach is approached as far as the legs swing.
     pub(crate) fn legs(&self, landing: &SolePose) -> LegOffsets {
-        // The frame between the headings of both feet.
-        let turn = 0.5 * landing.yaw;
-        let (sine, cosine) = sin_cos(-turn);
-        let seen = Matrix2::new(cosine, -sine, sine, cosine) * landing.position.xy();
-        let reach = self.reach(seen.x);
-        LegOffsets { turn, reach, spread: self.spread(seen.y - self.width, reach) }
+        // Seen between the headings of both feet, legs that are not turned land where those lines say.
+        let between = |sole: &SolePose, turn: f64| {
+            let (sine, cosine) = sin_cos(-turn);
+            Matrix2::new(cosine, -sine, sine, cosine) * sole.position.xy()
+        };
+        let turn_to = 0.5 * landing.yaw;
+        let asked = between(landing, turn_to);
+        let (mut turn, mut aim) = (turn_to, asked);
+        let offsets = |turn: f64, aim: Vector2<f64>| {
+            let reach = self.reach(aim.x);
+            LegOffsets { turn, reach, spread: self.spread(aim.y - self.width, reach) }
+        };
+        for _ in 0..ROUNDS_TO_AIM {
+            let lands = self.landing(&offsets(turn, aim));
+            turn += turn_to - 0.5 * lands.yaw;
+            aim += asked - between(&lands, turn_to);
+        }
+        offsets(turn, aim)
     }
 
     /// Heights of both hips over their ankles, summed, with the legs swung ahead (m).

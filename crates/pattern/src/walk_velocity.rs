@@ -1,15 +1,10 @@
 //! The velocity of a walk and its gait parameters, either from the other.
 //!
-//! A full step of duration `2·T/c` moves the middle between the feet by `d = v·2·T/c`. What of `d` lies ahead is made
-//! by two steps of equal length, what lies aside by one sidestep, the turn by one deflection. In the frame between the
-//! headings before and after, with steps `s`, sidestep `a` and turn `α` at a distance `w` of the feet,
-//!
-//! ```text
-//! ahead = s·(1 + cos α/2)        aside = a ± w·(1 − cos α/2)
-//! ```
-//!
-//! since turning out moves the middle a little towards the foot that leads. A steady velocity on an arc is a chord of
-//! length `v·2·T/c · sin(α/2)/(α/2)`.
+//! In a full step of duration `2·T/c` the middle between the feet moves by two half-steps, each along an arc. Their sum
+//! is what a velocity comes to in that time. What of it lies ahead is made by two steps of equal length, what lies
+//! aside by one sidestep, the turn by one deflection: both in the same half-step, or each in its own where one foot
+//! leads the turn and the other one the sidestep. Where the feet land follows from the legs (`step_geometry`); the gait
+//! parameters for a velocity are found from that by iteration.
 //!
 //! **How fast to step** is free. Short quick steps need little swing and much joint rate, long slow ones the reverse;
 //! both sway. The effort `e` is the length of `(v_x/v_n, v_y/v_s, ω/ω_s)`, where `v_n` is the nominal walk's speed and
@@ -17,11 +12,12 @@
 //! to `e = 1` and `1 + k·(e − 1)` beyond, bounded by the configured range. So the nominal walk stays what it is, and
 //! cadence and step length grow together, as people walk. It is continuous in the velocity.
 
-use dynamics::sin_cos;
-use gait::{Limits, NominalTable};
-use interface::{Command, SteadyWalk, WalkVelocity};
-use model::Mechanism;
+use dynamics::arc_between;
+use gait::{LegOffsets, Limits, NominalTable};
+use interface::{Command, SteadyWalk, WalkPose, WalkVelocity};
+use model::{Mechanism, Side};
 
+use crate::footprint::Footprint;
 use crate::step_geometry::StepGeometry;
 
 /// The relation of velocity and gait parameters for a robot and its nominal half-step.
@@ -41,7 +37,7 @@ const SIDESTEP: f64 = 0.17;
 /// Turn of comfortable size (rad per full step).
 const TURN: f64 = 0.42;
 /// Rounds of the inversion: each leaves a tenth of the error or less.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 8;
 
 impl VelocityMap {
     /// For a robot with its nominal half-step.
@@ -54,11 +50,7 @@ impl VelocityMap {
         let reach = 0.5 * command.extension;
         let step_ahead = self.geometry.step(reach);
         let step_aside = self.geometry.aside(0.5 * command.sidestep, reach);
-        let [ahead, left] = self.moved(step_ahead, step_aside, command.turn);
-        let per_time = command.speed / (2.0 * self.duration);
-        // From the chord to the arc.
-        let arc = per_time / sine_ratio(0.5 * command.turn);
-        let velocity = WalkVelocity { ahead: ahead * arc, left: left * arc, turn: command.turn * per_time };
+        let velocity = self.full_step(command).scaled(command.speed / (2.0 * self.duration));
         SteadyWalk { step_ahead, step_aside, velocity }
     }
 
@@ -80,32 +72,46 @@ impl VelocityMap {
     /// The gait parameters of a steady walk at a velocity. They may be outside every range.
     pub fn command(&self, velocity: &WalkVelocity, limits: &Limits) -> Command {
         let speed = self.speed(velocity).clamp(limits.speed_min, limits.speed_max);
-        let time = 2.0 * self.duration / speed;
-        let turn = velocity.turn * time;
-        let chord = time * sine_ratio(0.5 * turn);
-        let (ahead, left) = (velocity.ahead * chord, velocity.left * chord);
-        let (mut step, mut aside) = (0.5 * ahead, left);
-        for _ in 0..ROUNDS {
-            let [moved_ahead, moved_left] = self.moved(step, aside, turn);
-            step += 0.5 * (ahead - moved_ahead);
-            aside += left - moved_left;
+        let asked = velocity.scaled(2.0 * self.duration / speed);
+        let (mut step, mut aside, mut turn) = (0.5 * asked.ahead, asked.left, asked.turn);
+        let mut command = Command { speed, ..Command::NOMINAL };
+        for round in 0..=ROUNDS {
+            let reach = self.geometry.reach(step);
+            let sidestep = 2.0 * self.geometry.spread(aside, reach);
+            command = Command { turn, speed, extension: 2.0 * reach, sidestep };
+            if round < ROUNDS {
+                let moved = self.full_step(&command);
+                step += 0.5 * (asked.ahead - moved.ahead);
+                aside += asked.left - moved.left;
+                turn += asked.turn - moved.turn;
+            }
         }
-        let reach = self.geometry.reach(step);
-        Command { turn, speed, extension: 2.0 * reach, sidestep: 2.0 * self.geometry.spread(aside, reach) }
+        command
     }
 
-    /// How far a full step moves the middle between the feet (m), ahead and to the left, in the frame between the
-    /// headings before and after.
-    ///
-    /// * `step` – length of either step (m)
-    /// * `aside` – the sidestep (m), positive to the left
-    /// * `turn` – the change of heading (rad)
-    fn moved(&self, step: f64, aside: f64, turn: f64) -> [f64; 2] {
-        let (_, cosine) = sin_cos(0.5 * turn);
-        let towards_lead = self.geometry.width * (1.0 - cosine) * sign(turn);
-        // Where one foot leads the turn and the other one the sidestep, they are seen at an angle.
-        let seen = if turn * aside < 0.0 { aside * cosine } else { aside };
-        [step * (1.0 + cosine), seen + towards_lead]
+    /// How far a full step moves the middle between the feet: ahead and to the left (m), and the turn (rad).
+    fn full_step(&self, &Command { turn, extension, sidestep, .. }: &Command) -> WalkVelocity {
+        // Seen from the foot that does not lead; mirrored if that is the left one.
+        let side = if turn != 0.0 { turn.signum() } else { sign(sidestep) };
+        let reach = 0.5 * extension;
+        let [turned, spread] = [0.5 * turn.abs(), 0.5 * sidestep.abs()];
+        let at_once = turn * sidestep >= 0.0;
+        let [leading, following] = if at_once { [spread, 0.0] } else { [0.0, spread] };
+        let leading = self.geometry.landing(&LegOffsets { turn: turned, reach, spread: leading });
+        let following = self.geometry.landing(&LegOffsets { turn: 0.0, reach, spread: following });
+
+        let first = Footprint::first(Side::Right);
+        let second = first.next(&leading);
+        let third = second.next(&following);
+        let fourth = third.next(&leading);
+        let soles = [first, second, third, fourth].map(|foot| foot.pose());
+        let middles = [0, 1, 2].map(|index| middle(&soles[index], &soles[index + 1]));
+        let [one, other] = [arc_between(&middles[0], &middles[1]), arc_between(&middles[1], &middles[2])];
+        WalkVelocity {
+            ahead: one.x + other.x,
+            left: side * (one.y + other.y),
+            turn: side * (one.heading + other.heading),
+        }
     }
 
     /// The speed factor for a velocity.
@@ -120,9 +126,10 @@ impl VelocityMap {
     }
 }
 
-/// `sin(x)/x`.
-fn sine_ratio(x: f64) -> f64 {
-    if x.abs() < 1e-6 { 1.0 } else { sin_cos(x).0 / x }
+/// The middle between two soles.
+fn middle(one: &WalkPose, other: &WalkPose) -> WalkPose {
+    let mean = |one: f64, other: f64| 0.5 * (one + other);
+    WalkPose { x: mean(one.x, other.x), y: mean(one.y, other.y), heading: mean(one.heading, other.heading) }
 }
 
 /// 0 for 0.
@@ -132,10 +139,16 @@ fn sign(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+    use std::time::Duration;
+
     use config::Config;
+    use gait::{GaitParameters, RampKind, Start, Walk};
     use proptest::prelude::*;
 
     use super::*;
+    use crate::footstep_plan::{FootstepEvent, FootstepPlan};
+    use crate::pattern_model::PatternModel;
 
     const LIMITS: Limits = Limits {
         turn_max: 0.9,
@@ -207,5 +220,42 @@ mod tests {
         let (left, right) = (to_the(1.0), to_the(-1.0));
         assert_eq!((left.turn, left.sidestep), (-right.turn, -right.sidestep));
         assert_eq!((left.speed, left.extension), (right.speed, right.extension));
+    }
+
+    /// The oracle: the footsteps that are planned, over a full step of a steady walk.
+    #[test]
+    fn a_velocity_is_what_the_footsteps_of_its_command_come_to() {
+        let config = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config");
+        let mechanism = Mechanism::load(config.join("mechanism.toml")).unwrap();
+        let table = Arc::new(NominalTable::read_csv(&config.join("nominal_half_step.csv")).unwrap());
+        let map = map();
+        for (ahead, left, turn) in
+            [(0.9, 0.0, 0.0), (-0.3, 0.07, -0.9), (-0.13, -0.03, 1.0), (0.3, -0.2, -0.5), (0.0, 0.2, 0.0)]
+        {
+            let velocity = WalkVelocity { ahead, left, turn };
+            let start = Start { command: map.command(&velocity, &LIMITS), ..Start::default() };
+            let gait =
+                GaitParameters { ramp: RampKind::Quintic, speed_ramp: Duration::from_millis(600), limits: LIMITS };
+            let walk = Walk::new(Arc::clone(&table), &mechanism, &gait, start).unwrap();
+            let model = PatternModel::new(&mechanism, walk.mirror(), &table);
+            let mut plan = FootstepPlan::walking(&model, walk);
+            let mut feet = Vec::new();
+            while feet.len() < 6 {
+                if plan.advance(&model) == FootstepEvent::SupportChange {
+                    feet.push(plan.feet.footprint);
+                }
+            }
+            let soles = [2, 3, 4, 5].map(|index| feet[2].sees(&feet[index]));
+            let middles = [0, 1, 2].map(|index| middle(&soles[index], &soles[index + 1]));
+            let arcs = [0, 1].map(|index| arc_between(&middles[index], &middles[index + 1]));
+            let time = 2.0 * map.duration / start.command.speed;
+            for (asked, walked) in [
+                (ahead, arcs[0].x + arcs[1].x),
+                (left, arcs[0].y + arcs[1].y),
+                (turn, arcs[0].heading + arcs[1].heading),
+            ] {
+                assert!((asked * time - walked).abs() < 1e-6, "{velocity:?}: {} in {time} s", walked / time);
+            }
+        }
     }
 }

@@ -3,7 +3,7 @@
 //! A sole that bears stands still. The next one is where the measured joints put it when it takes over. Headings would
 //! drift by the slip of every turn; the inertial measurement unit tells them without.
 
-use dynamics::{Kinematics, atan2, pose_seen_from, poses_in_frame_of, sin_cos};
+use dynamics::{Kinematics, arc_between, atan2, pose_seen_from, poses_in_frame_of, sin_cos};
 use interface::{Odometry, WalkPose, WalkVelocity};
 use model::{Joint, Mechanism, Side};
 use nalgebra::{Quaternion, Vector2, Vector3};
@@ -89,11 +89,14 @@ impl WalkOdometry {
         self.support = support;
         self.changes.rotate_right(1);
         self.changes[0] = Some((pose, 0.0));
-        if let Some((earlier, since)) = self.changes[2] {
-            let between = WalkPose { heading: (pose.heading + earlier.heading) / 2.0, ..earlier };
-            let seen = pose_seen_from(&between, &pose);
-            let turned = pose.heading - earlier.heading;
-            self.velocity = WalkVelocity { ahead: seen.x / since, left: seen.y / since, turn: turned / since };
+        if let [_, Some((between, _)), Some((earlier, since))] = self.changes {
+            let [first, second] = [arc_between(&earlier, &between), arc_between(&between, &pose)];
+            let moved = WalkVelocity {
+                ahead: first.x + second.x,
+                left: first.y + second.y,
+                turn: first.heading + second.heading,
+            };
+            self.velocity = moved.scaled(1.0 / since);
         }
     }
 
