@@ -10,11 +10,15 @@ mod accuracy;
 mod agreement;
 mod asked;
 mod cores;
+#[cfg(all(feature = "mujoco", feature = "processes"))]
+mod directions;
 mod faults;
 mod files;
 #[cfg(feature = "mujoco")]
 mod goals;
 mod grid;
+#[cfg(all(feature = "mujoco", feature = "processes"))]
+mod imported;
 #[cfg(feature = "processes")]
 mod kill;
 mod margins;
@@ -78,6 +82,9 @@ enum Survey {
     /// Public robots, imported from their URDFs, in our plant and in MuJoCo: the table of docs/robots.md
     #[cfg(all(feature = "mujoco", feature = "processes"))]
     Robots(robots::Options),
+    /// The fastest walk of each direction, kept up by the built-in robot or by public ones
+    #[cfg(all(feature = "mujoco", feature = "processes"))]
+    Directions(directions::Options),
     /// What is granted, walked in MuJoCo
     #[cfg(feature = "mujoco")]
     Mujoco(mujoco::Options),
@@ -112,6 +119,8 @@ fn main() -> ExitCode {
         Survey::Kill(options) => kill::survey(options),
         #[cfg(all(feature = "mujoco", feature = "processes"))]
         Survey::Robots(options) => robots::survey(options),
+        #[cfg(all(feature = "mujoco", feature = "processes"))]
+        Survey::Directions(options) => directions::survey(options),
         #[cfg(feature = "mujoco")]
         Survey::Mujoco(options) => mujoco::survey(options),
         #[cfg(feature = "mujoco")]

@@ -4,20 +4,14 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use config::Config;
-use controller::Parameters;
-use gait::{NominalTable, Start, Walk};
-use halfstep::imported_robot::ImportedRobot;
 use halfstep_tests::pushing::{Direction, survives};
-use halfstep_tests::walking::{PERIOD, Walking};
-use interchange::import::NamedText;
+use halfstep_tests::walking::Walking;
 use interface::{Measurement, Setpoint, Verdict};
-use model::{GRAVITY, LegReach, Mechanism};
-use node::engine::EngineSetup;
-use plant::{Disturbances, Plant, PlantParameters, RobotState};
+use model::{GRAVITY, LegReach};
+use plant::Plant;
 
 use crate::cores::on_all_cores;
-use crate::mujoco::Outside;
+use crate::imported::{Imported, folders};
 use crate::streams::Source;
 use crate::watched::Watched;
 
@@ -40,16 +34,6 @@ pub(crate) struct Options {
     own_plant_only: bool,
 }
 
-/// A robot that walks, with what it walks by.
-struct Robot {
-    imported: ImportedRobot,
-    urdf: String,
-    mechanism: Mechanism,
-    nominal: Arc<NominalTable>,
-    controller: Parameters,
-    plant: PlantParameters,
-}
-
 /// What became of a robot in one plant.
 struct Outcome {
     nominal_falls: bool,
@@ -68,11 +52,7 @@ const PUSH_PHASES: [f64; 4] = [0.15, 0.4, 0.65, 0.9];
 const PUSHED_IN: u64 = 6;
 
 pub(crate) fn survey(options: &Options) -> bool {
-    let mut folders: Vec<PathBuf> = match std::fs::read_dir(&options.robots) {
-        Ok(entries) => entries.flatten().map(|entry| entry.path()).filter(|path| path.is_dir()).collect(),
-        Err(error) => panic!("{}: {error}", options.robots.display()),
-    };
-    folders.sort();
+    let folders = folders(&options.robots);
     println!(
         "<!-- cargo run --release -p halfstep-survey -- robots --robots DIR --half-steps {} --stream {} --tiles {} -->",
         options.half_steps, options.stream, options.tiles
@@ -85,8 +65,8 @@ pub(crate) fn survey(options: &Options) -> bool {
     let mut passed = true;
     let robots = on_all_cores(folders.len(), |index| examine(options, &folders[index]));
     for (robot, own, other, tiles, pushes) in robots {
-        let (load, joint) = robot.imported.half_step.load;
-        let parameters = &robot.imported.half_step.parameters;
+        let (load, joint) = robot.robot.half_step.load;
+        let parameters = &robot.robot.half_step.parameters;
         let walks = |falls: bool| if falls { "falls" } else { "walks" };
         for (plant, outcome) in [("ours", Some(&own)), ("MuJoCo", other.as_ref())] {
             let Some(outcome) = outcome else { continue };
@@ -114,8 +94,8 @@ pub(crate) fn survey(options: &Options) -> bool {
     passed
 }
 
-fn examine(options: &Options, folder: &Path) -> (Robot, Outcome, Option<Outcome>, u32, [f64; 2]) {
-    let robot = Robot::import(folder);
+fn examine(options: &Options, folder: &Path) -> (Imported, Outcome, Option<Outcome>, u32, [f64; 2]) {
+    let robot = Imported::import(folder);
     let own = robot.outcome(options, |_| Plant::step);
     let other = (!options.own_plant_only).then(|| {
         robot.outcome(options, |seed| {
@@ -128,47 +108,7 @@ fn examine(options: &Options, folder: &Path) -> (Robot, Outcome, Option<Outcome>
     (robot, own, other, tiles, pushes)
 }
 
-impl Robot {
-    fn import(folder: &Path) -> Self {
-        let read = |name: &str| {
-            let file = folder.join(name);
-            std::fs::read_to_string(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
-        };
-        let (urdf, map) = (read("robot.urdf"), read("sole.toml"));
-        let map = NamedText { text: &map, file: "sole.toml" };
-        let imported = ImportedRobot::new(NamedText { text: &urdf, file: "robot.urdf" }, Some(map));
-        let imported = imported.unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-        let text = |name: &str| {
-            let file = imported.files.iter().find(|(file, _)| *file == name);
-            file.map_or("", |(_, text)| text.as_str())
-        };
-        let wrong = |error: &dyn std::fmt::Display| -> ! { panic!("{}: {error}", folder.display()) };
-        Self {
-            mechanism: Mechanism::from_toml(text("mechanism.toml"), "mechanism.toml").unwrap_or_else(|e| wrong(&e)),
-            controller: Parameters::from_toml(text("controller.toml"), "controller.toml").unwrap_or_else(|e| wrong(&e)),
-            plant: PlantParameters::from_toml(text("plant.toml"), "plant.toml").unwrap_or_else(|e| wrong(&e)),
-            nominal: Arc::new(imported.half_step.synthesis.table.clone()),
-            imported,
-            urdf,
-        }
-    }
-
-    fn walking(&self, seed: u64) -> Walking {
-        Walking::begin_by(&self.mechanism, Arc::clone(&self.nominal), &self.controller, &self.plant, seed)
-    }
-
-    /// The robot in MuJoCo, from its URDF.
-    fn outside(&self, seed: u64) -> Outside {
-        let (mechanism, plant) = (&self.mechanism, &self.plant);
-        let walk = Walk::new(Arc::clone(&self.nominal), mechanism, &self.controller.gait, Start::default());
-        let start = walk.unwrap_or_else(|error| panic!("{error}")).physical_motion();
-        let begins = RobotState::on_right_foot(&start, 0.0);
-        let setup = EngineSetup::new(mechanism, plant, &Disturbances::default(), &begins, seed, PERIOD);
-        let setup = setup.unwrap_or_else(|error| panic!("{error}"));
-        let source = mechanism.source.as_ref().unwrap_or_else(|| panic!("an imported robot has a source"));
-        Outside::take_over(setup.with_urdf(self.urdf.clone(), source, mechanism, plant, seed))
-    }
-
+impl Imported {
     /// Walks nominally, then by a random stream; each in a plant of its own.
     fn outcome<Step>(&self, options: &Options, plant: impl Fn(u64) -> Step) -> Outcome
     where

@@ -139,6 +139,7 @@ impl Course {
         let [sole] = poses_in_frame_of(&sole, &[beside]);
         self.half_steps_near += u32::from(is_close);
         self.reached = if arrives { waypoints.len() } else { reached };
-        CourseStep { landing: feet.footprint.sole_at(&sole), stance: arrives.then_some(Stance::Parallel) }
+        let landing = model.velocity.geometry().spacing().kept(&feet.footprint.sole_at(&sole));
+        CourseStep { landing, stance: arrives.then_some(Stance::Parallel) }
     }
 }

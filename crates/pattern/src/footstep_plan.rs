@@ -238,7 +238,7 @@ impl FootstepPlan {
             GaitState::InPlace { half_steps: 0 } => {
                 beside_support(model, landing.yaw, self.walk.sidestep().per_hip(1.0).value)
             }
-            _ => landing,
+            _ => model.velocity.geometry().spacing().kept(&landing),
         }
     }
 

@@ -50,6 +50,7 @@ mod playback;
 mod preview_controller;
 mod proportions;
 mod sole_friction;
+mod sole_spacing;
 mod speed_override;
 mod step_adjustment;
 mod step_bounds;

@@ -9,11 +9,13 @@ use nalgebra::{Matrix2, Vector2};
 
 use crate::footprint::SolePose;
 use crate::modified_half_step::NominalLegs;
+use crate::sole_spacing::SoleSpacing;
 
 /// The legs at the end of the nominal half-step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct StepGeometry {
     legs: NominalLegs,
+    spacing: SoleSpacing,
     /// From hip to ankle of the support leg upward and of the swing leg downward: along x, summed (m).
     ahead: f64,
     /// The same across x, each from the ankle to the hip's height (m).
@@ -44,6 +46,7 @@ impl StepGeometry {
             rest: legs.foot.at(&legs.sole_in_foot).x - ahead,
             width: mechanism.foot_distance(),
             legs,
+            spacing: SoleSpacing::of(mechanism),
         }
     }
 
@@ -86,8 +89,24 @@ impl StepGeometry {
         spread
     }
 
-    /// Where the swing sole lands, in support coordinates.
+    /// Where the swing sole lands, in support coordinates: where the legs put it, or further out if that is too near to
+    /// the other one.
     pub(crate) fn landing(&self, offsets: &LegOffsets) -> SolePose {
+        self.spacing.kept(&self.put(offsets))
+    }
+
+    /// How much further out than the legs put it the swing sole lands (m).
+    pub(crate) fn further_out(&self, offsets: &LegOffsets) -> f64 {
+        self.spacing.lacking(&self.put(offsets))
+    }
+
+    /// Where soles may land beside each other.
+    pub(crate) fn spacing(&self) -> &SoleSpacing {
+        &self.spacing
+    }
+
+    /// Where the legs put the swing sole.
+    fn put(&self, offsets: &LegOffsets) -> SolePose {
         self.legs.modified(offsets).swing_sole
     }
 
@@ -107,7 +126,7 @@ impl StepGeometry {
             LegOffsets { turn, reach, spread: self.spread(aim.y - self.width, reach) }
         };
         for _ in 0..ROUNDS_TO_AIM {
-            let lands = self.landing(&offsets(turn, aim));
+            let lands = self.put(&offsets(turn, aim));
             turn += turn_to - 0.5 * lands.yaw;
             aim += asked - between(&lands, turn_to);
         }

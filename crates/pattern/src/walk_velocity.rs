@@ -77,7 +77,7 @@ impl VelocityMap {
         let mut command = Command { speed, ..Command::NOMINAL };
         for round in 0..=ROUNDS {
             let reach = self.geometry.reach(step);
-            let sidestep = 2.0 * self.geometry.spread(aside, reach);
+            let sidestep = 2.0 * self.geometry.spread(self.sidestep(aside, turn, reach), reach);
             command = Command { turn, speed, extension: 2.0 * reach, sidestep };
             if round < ROUNDS {
                 let moved = self.full_step(&command);
@@ -87,6 +87,13 @@ impl VelocityMap {
             }
         }
         command
+    }
+
+    /// The sidestep that moves aside (m), where the turn alone may do so: its foot lands further out if it must.
+    fn sidestep(&self, aside: f64, turn: f64, reach: f64) -> f64 {
+        let lead = sign(turn);
+        let out = self.geometry.further_out(&LegOffsets { turn: 0.5 * turn.abs(), reach, spread: 0.0 });
+        if lead * aside < out { aside - lead * out } else { aside }
     }
 
     /// How far a full step moves the middle between the feet: ahead and to the left (m), and the turn (rad).
