@@ -63,6 +63,46 @@ fn goals_are_reached_from_a_stand_and_from_a_walk() {
     }
 }
 
+/// A fast walk goes on for a while, and the goal may lie anywhere. What cannot be reached in stride is reached from a
+/// stand; without that 4 of 60 such goals are refused, with it 1.
+#[test]
+fn a_goal_that_a_fast_walk_cannot_turn_to_is_reached_from_a_stand() {
+    let mut random = random(10);
+    let (mut stopped, mut refused) = (0, 0);
+    for (seed, ahead) in [1.1, 0.9, -0.45, 0.7, 1.0, 0.0, 1.1, 0.5, 1.1, -0.3].into_iter().cycle().take(20).enumerate()
+    {
+        let mut walking = Walking::begin(seed as u64);
+        walking.walk(1.0);
+        let (left, turn) = (random.random_range(-0.2..0.2), random.random_range(-1.0..1.0));
+        let velocity = Some(WalkVelocity { ahead, left, turn });
+        reply(&mut walking, &Request { velocity, ..Request::new(Source::Console) });
+        walking.walk(random.random_range(3.0..5.0));
+        let estimate = walking.tick(None).report.odometry.pose;
+        let [goal] = poses_in_frame_of(
+            &estimate,
+            &[pose(random.random_range(-1.0..1.0), random.random_range(-1.0..1.0), random.random_range(-180.0..180.0))],
+        );
+        let before = pose_seen_from(&estimate, &goal);
+        let [expected] = poses_in_frame_of(&true_pose(&walking), &[before]);
+        let granted = reply(&mut walking, &walk_through(&[goal]));
+        if granted.verdict == Verdict::Refused {
+            refused += 1;
+            continue;
+        }
+        let mut stands = false;
+        let arrived = walking.walk_until(60.0, |tick| {
+            stands |= tick.report.mode == Mode::Starting;
+            has_arrived(tick)
+        });
+        arrived.expect("arrives");
+        walking.walk(0.5);
+        stopped += usize::from(stands);
+        let [off, turned] = pose_error(&expected, &true_pose(&walking));
+        assert!(off < 0.03 && turned < 0.035, "{ahead} m/s: {off} m, {turned} rad");
+    }
+    assert!((1..10).contains(&stopped) && refused <= 1, "{stopped} of 20 from a stand, {refused} refused");
+}
+
 #[test]
 fn a_relative_goal_is_seen_from_the_robot() {
     let mut walking = Walking::stand(2);
@@ -237,14 +277,10 @@ fn destinations_and_everything_else_follow_each_other_without_a_fall() {
             let tick = walking.tick_with(request.as_ref());
             assert!(!walking.has_fallen(&tick), "seed {seed} at {:.2} s", walking.time());
         }
-        // Whatever came before, the next goal is reached; if it is refused in stride, then from a stand.
+        // Whatever came before, the next goal is reached.
         let estimate = walking.tick(None).report.odometry.pose;
         let [goal] = poses_in_frame_of(&estimate, &[pose(0.6, -0.4, 60.0)]);
-        if reply(&mut walking, &walk_through(&[goal])).verdict == Verdict::Refused {
-            reply(&mut walking, &STOP);
-            walking.walk_until(8.0, |tick| tick.report.mode == Mode::Standing).expect("stands");
-            assert_ne!(reply(&mut walking, &walk_through(&[goal])).verdict, Verdict::Refused, "seed {seed}");
-        }
+        assert_ne!(reply(&mut walking, &walk_through(&[goal])).verdict, Verdict::Refused, "seed {seed}");
         let before = pose_seen_from(&walking.tick(None).report.odometry.pose, &goal);
         let [expected] = poses_in_frame_of(&true_pose(&walking), &[before]);
         arrive(&mut walking);

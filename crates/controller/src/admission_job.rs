@@ -7,7 +7,9 @@
 use interface::{
     ActiveLimit, Command, GaitChange, Intent, Objection, Places, Reason, Request, SteadyWalk, Verdict, WalkVelocity,
 };
-use pattern::{Feasibility, FeasibilityCheck, Gait, GaitState, Limit, LimitViolation, Pace, PatternGenerator};
+use pattern::{
+    Departure, Feasibility, FeasibilityCheck, Gait, GaitState, Limit, LimitViolation, Pace, PatternGenerator,
+};
 
 use crate::localization::Localization;
 use crate::pattern::goal_of;
@@ -41,8 +43,8 @@ pub struct AdmissionJob {
     revision: u64,
     /// The copy that is simulated ahead.
     pub(crate) trial: PatternGenerator,
-    /// The share of the largest half-steps that a walk to way-points makes.
-    pub(crate) share: f64,
+    /// How a walk to a destination sets out.
+    pub(crate) departure: Departure,
     decision: Option<Decision>,
 }
 
@@ -91,7 +93,7 @@ impl AdmissionJob {
             revision: generator.revision(),
             trial: generator.clone(),
             localization: Localization::default(),
-            share: 1.0,
+            departure: Departure { share: 1.0, stops_first: false },
             decision: None,
         }
     }
@@ -125,7 +127,7 @@ impl AdmissionJob {
             let begins = index + u64::from(self.generator.gait_state().is_stepping());
             if decision.verdict != Verdict::Refused {
                 let sole = self.localization.support_sole;
-                self.generator.walk_to(places, &sole, decision.granted.speed, self.share);
+                self.generator.walk_to(places, &sole, decision.granted.speed, self.departure);
             }
             self.decision = Some(Decision { effect_half_step: begins, ..decision });
             return;
@@ -149,7 +151,7 @@ impl AdmissionJob {
     fn decide(&mut self) -> Option<Decision> {
         let in_force = self.generator.command();
         let velocity = match self.wanted {
-            Wanted::Destination(places, speed) => return Some(self.decide_destination(&places, speed)),
+            Wanted::Destination(places, speed) => return self.decide_destination(&places, speed),
             Wanted::Velocity(velocity) => Some(velocity),
             Wanted::Parameters(_) => None,
         };
@@ -245,7 +247,7 @@ impl AdmissionJob {
     }
 
     /// Whether a support change is near; never in the first half of a half-step, so that no request waits for ever.
-    fn is_late(&self) -> bool {
+    pub(crate) fn is_late(&self) -> bool {
         let left = 1.0 - self.generator.half_step().progress;
         let late = LATE * self.generator.speed() / self.generator.walk().table().duration;
         self.generator.gait_state().is_stepping() && left < late.min(0.5)

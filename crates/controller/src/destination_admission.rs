@@ -1,10 +1,12 @@
 //! What of a request to walk to a destination can be granted: the whole way is simulated, with slower or smaller steps
-//! as long as it violates a limit.
+//! as long as it violates a limit, and from a stand if it cannot be reached in stride.
 
 use std::cell::Cell;
 
 use interface::{ActiveLimit, Command, Footstep, Objection, Places, Reason, Verdict};
-use pattern::{Feasibility, FootstepFault, FootstepProblem, Gait, GaitState, KNOT, PatternGenerator};
+use pattern::{
+    Departure, Feasibility, FootstepFault, FootstepProblem, Gait, GaitState, Goal, KNOT, PatternGenerator, Stance,
+};
 
 use crate::admission_job::{AdmissionJob, Decision, objection};
 
@@ -16,12 +18,14 @@ const KNOTS_MAX: usize = 4000;
 const DISTANCE_MAX: f64 = 1e4;
 
 impl AdmissionJob {
-    /// Decides on a walk to places, in the walk frame, and notes how it goes there.
-    pub(crate) fn decide_destination(&mut self, places: &Places, speed: Option<f64>) -> Decision {
+    /// Decides on a walk to places, in the walk frame, and notes how it goes there. `None` if that has to wait for a
+    /// support change: what cannot be begun late in a half-step may be at the beginning of the next one.
+    pub(crate) fn decide_destination(&mut self, places: &Places, speed: Option<f64>) -> Option<Decision> {
         let in_force = self.generator.command();
         let unchanged = Decision::unchanged(in_force, self.generator.half_step().index);
-        let refused =
-            |objection, place| Decision { verdict: Verdict::Refused, objection: Some(objection), place, ..unchanged };
+        let refused = |objection, place| {
+            Some(Decision { verdict: Verdict::Refused, objection: Some(objection), place, ..unchanged })
+        };
         if let Some((objection, place)) = self.objection_to(places) {
             return refused(objection, place);
         }
@@ -31,29 +35,37 @@ impl AdmissionJob {
         // What the walk in force violates, or a start to the nominal walk, is no reason to refuse a way.
         let in_force_or_nominal =
             if self.generator.gait_state() == GaitState::Walking { in_force } else { Command::NOMINAL };
-        let base = self.simulate(&in_force_or_nominal.into()).1;
+        let in_stride = self.simulate(&in_force_or_nominal.into()).1;
         let mut first = None;
-        for share in SHARES {
+        // Footsteps begin with the feet as they are.
+        let can_stop = self.generator.gait_state().is_stepping() && matches!(places, Places::Waypoints(_));
+        let from_stand = if can_stop { Some(in_stride.and(&self.simulate_stop())) } else { None };
+        let departures = std::iter::once((false, in_stride)).chain(from_stand.map(|base| (true, base)));
+        for ((stops_first, base), share) in departures.flat_map(|each| SHARES.map(|share| (each, share))) {
             let (speed, share) = match places {
                 Places::Waypoints(_) => (speed_in_range, share),
                 Places::Footsteps(_) => ((speed_in_range * share).max(speed_min), 1.0),
             };
-            let (feasibility, arrival) = self.simulate_way(places, speed, share);
+            let departure = Departure { share, stops_first };
+            let (feasibility, arrival) = self.simulate_way(places, speed, departure);
             let violated = feasibility
                 .violation
                 .as_ref()
                 .map(|violation| (objection(violation), self.place_of(places, feasibility.violated_in)));
             if !feasibility.is_no_worse_than(&base) {
+                if self.is_late() {
+                    return None;
+                }
                 first = first.or(violated);
                 continue;
             }
-            self.share = share;
+            self.departure = departure;
             let range = (speed != asked).then_some(Objection {
                 reason: Reason::SpeedLimit,
                 active_limit: Some(ActiveLimit { joint: None, value: asked, limit: speed }),
             });
             let objection = first.map(|(objection, _)| objection).or(range);
-            return Decision {
+            return Some(Decision {
                 verdict: if objection.is_some() { Verdict::Limited } else { Verdict::Accepted },
                 granted: Command { speed, ..in_force },
                 objection,
@@ -65,7 +77,7 @@ impl AdmissionJob {
                     Places::Footsteps(_) => None,
                 },
                 ..unchanged
-            };
+            });
         }
         let (objection, place) = first.unwrap_or((Objection { reason: Reason::LegReach, active_limit: None }, None));
         refused(objection, place)
@@ -103,11 +115,18 @@ impl AdmissionJob {
         }
     }
 
+    /// Simulates a stop, which is made whatever it violates.
+    fn simulate_stop(&mut self) -> Feasibility {
+        self.trial.clone_from(&self.generator);
+        self.trial.set_goal(Goal::Stand(Stance::Parallel));
+        self.check.play(&mut self.trial, |trial, knots| !trial.gait_state().is_standing() && knots < KNOTS_MAX)
+    }
+
     /// Simulates the way to places until the robot stands there. Returns how long that takes (s), if it arrives in the
     /// time that is simulated.
-    fn simulate_way(&mut self, places: &Places, speed: f64, share: f64) -> (Feasibility, Option<f64>) {
+    fn simulate_way(&mut self, places: &Places, speed: f64, departure: Departure) -> (Feasibility, Option<f64>) {
         self.trial.clone_from(&self.generator);
-        self.trial.walk_to(places, &self.localization.support_sole, speed, share);
+        self.trial.walk_to(places, &self.localization.support_sole, speed, departure);
         let arrived = Cell::new(None);
         let goes_on = |trial: &PatternGenerator, knots: usize| {
             if trial.has_arrived() {

@@ -98,9 +98,14 @@ impl FootstepPlan {
         self.course.as_ref()
     }
 
-    /// Walks to a destination and stands there, from the next half-step on.
-    pub(crate) fn follow(&mut self, course: Course) {
-        self.set_goal(Goal::Walk);
+    /// Walks to a destination and stands there, from the next half-step on, or from a stand with the feet side by side.
+    pub(crate) fn follow(&mut self, course: Course, stops_first: bool) {
+        if stops_first {
+            self.set_goal(Goal::Stand(Stance::Parallel));
+            self.gait_state.walk_after_stand();
+        } else {
+            self.set_goal(Goal::Walk);
+        }
         self.course = Some(course);
         self.apply_command();
     }

@@ -131,6 +131,13 @@ impl GaitState {
         };
     }
 
+    /// Lets a walk follow the stand that lies ahead, if one does.
+    pub fn walk_after_stand(&mut self) {
+        if let GaitState::Stopping { goal, .. } = self {
+            *goal = Goal::Walk;
+        }
+    }
+
     /// Half-steps that begin until the feet are side by side or the robot stands, if one of these lies ahead.
     fn half_steps_remaining(self) -> Option<u8> {
         match self {

@@ -70,7 +70,7 @@ pub use gait_state::{GaitState, Goal, Stance};
 pub use knot::KNOT;
 pub use limit::{Limit, LimitViolation};
 pub use pace::Pace;
-pub use pattern_generator::PatternGenerator;
+pub use pattern_generator::{Departure, PatternGenerator};
 pub use uncompensated_gait::UncompensatedGait;
 pub use walk_velocity::VelocityMap;
 

@@ -1,6 +1,8 @@
 //! The walking-pattern generator: modifies the half-steps, plans the centre of mass over them, and realises both.
 
 mod destination;
+
+pub use destination::Departure;
 #[cfg(test)]
 mod tests;
 

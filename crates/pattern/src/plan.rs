@@ -122,11 +122,11 @@ impl Plan {
         admission
     }
 
-    /// Walks to a destination at a speed factor, and plans it at once.
-    pub(crate) fn follow(&mut self, model: &PatternModel, course: Course, speed: f64) {
+    /// Walks to a destination at a speed factor, from a stand if the robot is to stop first, and plans it at once.
+    pub(crate) fn follow(&mut self, model: &PatternModel, course: Course, speed: f64, stops_first: bool) {
         let footsteps = &mut self.foot_trajectory.footsteps;
         footsteps.admit(&GaitChange { speed: Some(speed), ..GaitChange::NONE }, Pace::AtOnce);
-        footsteps.follow(course);
+        footsteps.follow(course, stops_first);
         self.replan.forget_goal();
         self.replan_at_once(model);
     }

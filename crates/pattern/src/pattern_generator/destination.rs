@@ -19,16 +19,24 @@ const LOCATED: std::ops::Range<f64> = 0.15..0.6;
 const DISPLACEMENT_MIN: f64 = 5e-4;
 const ROTATION_MIN: f64 = 1e-3;
 
+/// How a robot sets out for a destination.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Departure {
+    /// Share of the largest half-steps to way-points; less is easier (-).
+    pub share: f64,
+    /// Whether it comes to a stand first.
+    pub stops_first: bool,
+}
+
 impl PatternGenerator {
     /// Walks to a destination, from the next half-step on, and plans it at once.
     ///
     /// * `support_sole` – where the sole of the present support foot is in the frame of the places
     /// * `speed` – the speed factor
-    /// * `share` – of the largest half-steps to way-points; less is easier (-)
-    pub fn walk_to(&mut self, places: &Places, support_sole: &WalkPose, speed: f64, share: f64) {
-        let bounds = StepBounds::new(&self.model, self.walk().limits(), share);
+    pub fn walk_to(&mut self, places: &Places, support_sole: &WalkPose, speed: f64, departure: Departure) {
+        let bounds = StepBounds::new(&self.model, self.walk().limits(), departure.share);
         let course = Course::new(places, self.frame_of_places(support_sole), bounds);
-        self.plan.follow(&self.model, course, speed);
+        self.plan.follow(&self.model, course, speed, departure.stops_first);
     }
 
     /// The walk of the largest half-steps to way-points, each alone.
