@@ -53,7 +53,12 @@ pub fn plant_parameters() -> plant::PlantParameters {
 
 /// Physical joints of the stand from which a walk is started.
 pub fn standing(mechanism: &Mechanism, parameters: &controller::Parameters) -> Motion {
-    let walk = Walk::new(nominal(), mechanism, &parameters.gait, Start::default()).expect("the nominal walks");
+    standing_by(mechanism, nominal(), parameters)
+}
+
+/// The same with another half-step.
+fn standing_by(mechanism: &Mechanism, table: Arc<NominalTable>, parameters: &controller::Parameters) -> Motion {
+    let walk = Walk::new(table, mechanism, &parameters.gait, Start::default()).expect("the nominal walks");
     PatternGenerator::standing(mechanism, walk).physical_motion()
 }
 
@@ -107,11 +112,21 @@ impl Walking {
 
     /// In a stand, as with `--from-stand`.
     pub fn stand(seed: u64) -> Self {
-        let (mechanism, parameters) = (crate::mechanism(), controller_parameters());
-        let start = standing(&mechanism, &parameters);
-        let mut plant = Plant::new(&mechanism, &plant_parameters(), &start, PERIOD, seed);
+        Self::stand_by(&crate::mechanism(), nominal(), &controller_parameters(), &plant_parameters(), seed)
+    }
+
+    /// The same with another robot and its half-step.
+    pub fn stand_by(
+        mechanism: &Mechanism,
+        table: Arc<NominalTable>,
+        parameters: &controller::Parameters,
+        plant: &plant::PlantParameters,
+        seed: u64,
+    ) -> Self {
+        let start = standing_by(mechanism, table.clone(), parameters);
+        let mut plant = Plant::new(mechanism, plant, &start, PERIOD, seed);
         let measurement = plant.measure();
-        let controller = Controller::standing(&mechanism, nominal(), &parameters, Start::default());
+        let controller = Controller::standing(mechanism, table, parameters, Start::default());
         let driver = Driver { controller: controller.expect("the nominal walks"), worker: InlineWorker };
         Self { driver, plant, measurement, tick: 0, waiting: VecDeque::with_capacity(WAITING) }
     }

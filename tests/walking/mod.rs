@@ -29,4 +29,5 @@ mod walks_on_what_it_does_not_know;
 mod walks_through_sensor_faults;
 mod walks_to_destinations;
 mod walks_without_falling;
+mod weak_robots_start_and_stop;
 mod what_is_accepted_is_walked;

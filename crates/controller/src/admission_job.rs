@@ -202,6 +202,12 @@ impl AdmissionJob {
             base = Command::NOMINAL;
             unchanged = self.simulate(&base.into()).1;
         }
+        if let Some(overload) = unchanged.overload() {
+            // No start can be made, whatever the walk after it.
+            let unchanged = Decision::unchanged(in_force, self.generator.half_step().index);
+            let objection = Some(objection(&overload));
+            return Some(Decision { verdict: Verdict::Refused, objection, ..unchanged });
+        }
         if feasibility.is_no_worse_than(&unchanged) {
             return decided(requested, &feasibility);
         }

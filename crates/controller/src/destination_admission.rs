@@ -36,6 +36,9 @@ impl AdmissionJob {
         let in_force_or_nominal =
             if self.generator.gait_state() == GaitState::Walking { in_force } else { Command::NOMINAL };
         let in_stride = self.simulate(&in_force_or_nominal.into()).1;
+        if let Some(overload) = in_stride.overload() {
+            return refused(objection(&overload), None);
+        }
         let mut first = None;
         // Footsteps begin with the feet as they are.
         let can_stop = self.generator.gait_state().is_stepping() && matches!(places, Places::Waypoints(_));

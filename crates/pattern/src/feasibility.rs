@@ -9,10 +9,11 @@ use model::{Joint, JointVector, Mechanism, Motion, Side, Sole};
 use nalgebra::{Point3, Vector2};
 
 use crate::gait::Gait;
-use crate::limit::{Excess, Limit, LimitViolation};
+use crate::limit::{ANKLES, Excess, Limit, LimitViolation};
 use crate::pattern_generator::PatternGenerator;
 use crate::proportions::PatternProportions;
 use crate::sole_friction::SoleFriction;
+use crate::start_overload::StartOverload;
 
 /// The result of a check.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +29,8 @@ pub struct Feasibility {
     margin_in: u64,
     /// How far each limit is exceeded.
     excess: Excess,
+    /// The drives in starts from a stand.
+    overload: StartOverload,
     /// The largest share of its limit that any joint rate, torque or voltage of the present knot takes.
     load: f64,
 }
@@ -67,9 +70,6 @@ pub struct FeasibilityCheck {
     dynamics: ReferenceDynamics,
     friction: SoleFriction,
 }
-
-/// The joints that feel directly where the ground pushes.
-const ANKLES: [Joint; 4] = [Joint::RightAnkleRoll, Joint::RightAnklePitch, Joint::LeftAnklePitch, Joint::LeftAnkleRoll];
 
 impl FeasibilityCheck {
     /// A check for a robot.
@@ -125,6 +125,7 @@ impl FeasibilityCheck {
         }
         feasibility.load = 0.0;
         self.check(generator, feasibility);
+        self.check_start(generator, feasibility);
         let parts = if generator.is_near_support_change() {
             PARTS_NEAR_SUPPORT_CHANGE
         } else if feasibility.load > NEAR_LIMIT {
@@ -140,6 +141,13 @@ impl FeasibilityCheck {
             self.check(generator, feasibility);
         }
         generator.seek(0.0);
+    }
+
+    /// Checks the knot that was checked last as a part of a start from a stand, if it is one.
+    fn check_start(&self, generator: &PatternGenerator, feasibility: &mut Feasibility) {
+        let half_step = generator.half_step();
+        let torques = generator.walk().mirror().to_physical(half_step.support, &self.dynamics.torques);
+        feasibility.overload.note(&self.mechanism, half_step.index, generator.in_double_support(), &torques);
     }
 
     /// Checks the present instant.
@@ -230,6 +238,7 @@ impl Default for Feasibility {
             half_step: 0,
             margin_in: 0,
             excess: Excess::NONE,
+            overload: StartOverload::default(),
             load: 0.0,
         }
     }
@@ -241,6 +250,11 @@ impl Feasibility {
         self.violation.is_none() || self.excess.is_within(&other.excess)
     }
 
+    /// The torque that a drive lacks in a start from a stand, and for so long that its joint would fall behind.
+    pub fn overload(&self) -> Option<LimitViolation> {
+        self.overload.violation()
+    }
+
     /// Of two motions together: each limit as it is exceeded by either.
     #[must_use]
     pub fn and(mut self, other: &Feasibility) -> Self {
@@ -249,6 +263,9 @@ impl Feasibility {
             (self.violation, self.violated_in) = (other.violation, other.violated_in);
         }
         self.excess = self.excess.max(&other.excess);
+        if self.overload().is_none() {
+            self.overload = other.overload;
+        }
         self
     }
 

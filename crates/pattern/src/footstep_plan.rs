@@ -11,6 +11,7 @@ use crate::gait_state::{GaitState, Goal, Stance};
 use crate::modified_half_step::ModifiedHalfStep;
 use crate::pace::Pace;
 use crate::pattern_model::PatternModel;
+use crate::weight_shift::WeightShift;
 
 /// The commanded walk at a knot, with its footsteps. A copy advanced knot by knot gives the footsteps that come.
 #[derive(Clone, Debug)]
@@ -21,6 +22,8 @@ pub(crate) struct FootstepPlan {
     pub gait_state: GaitState,
     /// The feet of the present half-step.
     pub feet: Feet,
+    /// The weight shift with which the robot starts from a stand.
+    pub weight_shift: WeightShift,
     /// The command in force while the gait state is `Walking`; before a stand the walk is calmer.
     command: Command,
     /// The pace at which the walk changes over to that command.
@@ -53,7 +56,8 @@ impl FootstepPlan {
         let command = walk.command();
         let feet = Feet { footprint, lift_off, landing: lift_off };
         let gait_state = GaitState::Walking;
-        let mut plan = Self { walk, gait_state, feet, command, pace: Pace::AtOnce, begun_with: command, course: None };
+        let (pace, weight_shift) = (Pace::AtOnce, model.weight_shift);
+        let mut plan = Self { walk, gait_state, feet, weight_shift, command, pace, begun_with: command, course: None };
         plan.feet.landing = plan.landing(model);
         plan
     }
@@ -65,7 +69,8 @@ impl FootstepPlan {
         let feet = Feet { footprint, lift_off: parallel, landing: parallel };
         let gait_state = GaitState::Standing(Stance::Parallel);
         let (command, begun_with) = (walk.command(), Command::NOMINAL);
-        let mut plan = Self { command, walk, gait_state, feet, pace: Pace::AtOnce, begun_with, course: None };
+        let (pace, weight_shift) = (Pace::AtOnce, model.weight_shift);
+        let mut plan = Self { command, walk, gait_state, feet, weight_shift, pace, begun_with, course: None };
         plan.walk.force(&Command::NOMINAL);
         plan.feet.landing = plan.landing(model);
         plan
@@ -121,7 +126,7 @@ impl FootstepPlan {
     pub(crate) fn set_goal(&mut self, goal: Goal) {
         self.course = None;
         let was_in_place = matches!(self.gait_state, GaitState::InPlace { .. });
-        self.gait_state.set_goal(goal);
+        self.gait_state.set_goal(goal, self.weight_shift);
         if let GaitState::Stopping { half_steps: half_steps @ 1, .. } = &mut self.gait_state
             && was_in_place
             && self.walk.sidestep().per_hip(1.0).value != 0.0
@@ -169,6 +174,7 @@ impl FootstepPlan {
                 Some(self.walk.force(&Command { speed, extension: 0.0, ..self.command }))
             }
             GaitState::Stopping { .. }
+            | GaitState::Settling { .. }
             | GaitState::Standing(_)
             | GaitState::Starting { .. }
             | GaitState::Returning { .. } => None,
@@ -178,7 +184,7 @@ impl FootstepPlan {
     /// Advances by a knot.
     pub(crate) fn advance(&mut self, model: &PatternModel) -> FootstepEvent {
         let was_standing = self.gait_state.is_standing();
-        let begins = self.gait_state.advance(&mut self.walk);
+        let begins = self.gait_state.advance(&mut self.walk, self.weight_shift);
         if begins {
             self.begun_with = self.walk.command();
             self.feet.lift_off = self.feet.landing.former_support();

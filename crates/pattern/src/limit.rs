@@ -26,6 +26,10 @@ pub enum Limit {
     LegReach,
 }
 
+/// The joints that feel directly where the ground pushes: their torques are limited by what the ground can push, too.
+pub(crate) const ANKLES: [Joint; 4] =
+    [Joint::RightAnkleRoll, Joint::RightAnklePitch, Joint::LeftAnklePitch, Joint::LeftAnkleRoll];
+
 /// A limit that is violated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LimitViolation {

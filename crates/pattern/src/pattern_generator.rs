@@ -22,6 +22,7 @@ use crate::gait_phase::GaitPhase;
 use crate::gait_state::{GaitState, Goal, Stance};
 use crate::incremental_replan::PlanChange;
 use crate::knot::{KNOT, Knot};
+use crate::one_foot_stand;
 use crate::pace::Pace;
 use crate::pattern_model::PatternModel;
 use crate::plan::Plan;
@@ -42,7 +43,7 @@ pub struct PatternGenerator {
 impl PatternGenerator {
     /// A walk in stride, at the very beginning of its first half-step.
     pub fn walking(mechanism: &Mechanism, walk: Walk) -> Self {
-        let model = PatternModel::new(mechanism, walk.mirror(), walk.table());
+        let model = one_foot_stand::model_of(mechanism, &walk);
         let motion = walk.motion();
         let feet = FootTrajectory::new(&model, FootstepPlan::walking(&model, walk));
         Self::begin(model, feet, &motion)
@@ -50,7 +51,7 @@ impl PatternGenerator {
 
     /// A stand with the feet side by side, from which a walk can be started.
     pub fn standing(mechanism: &Mechanism, walk: Walk) -> Self {
-        let model = PatternModel::new(mechanism, walk.mirror(), walk.table());
+        let model = one_foot_stand::model_of(mechanism, &walk);
         let nominal = walk.motion().angles;
         let feet = FootTrajectory::new(&model, FootstepPlan::standing(&model, walk));
         let footprint = &feet.footsteps.feet;
@@ -254,9 +255,13 @@ impl Gait for PatternGenerator {
     fn phase(&self) -> GaitPhase {
         match (self.gait_state(), self.in_double_support()) {
             (GaitState::Standing(stance), true) => GaitPhase::Standing(stance),
-            (GaitState::Standing(_) | GaitState::Stopping { .. } | GaitState::Returning { .. }, _) => {
-                GaitPhase::Stopping
-            }
+            (
+                GaitState::Settling { .. }
+                | GaitState::Standing(_)
+                | GaitState::Stopping { .. }
+                | GaitState::Returning { .. },
+                _,
+            ) => GaitPhase::Stopping,
             (_, true) => GaitPhase::Starting,
             (GaitState::Walking | GaitState::Starting { .. }, false) => GaitPhase::Walking,
             (GaitState::InPlace { .. }, false) => GaitPhase::InPlace,
@@ -275,7 +280,7 @@ impl Gait for PatternGenerator {
         let goal = Goal::Stand(stance);
         self.set_goal_soon(goal);
         let mut stopping = self.gait_state();
-        stopping.set_goal(goal);
+        stopping.set_goal(goal, self.model.weight_shift);
         u64::from(stopping.half_steps_to_goal())
     }
 

@@ -11,6 +11,7 @@ use crate::modified_half_step::ModifiedHalfStep;
 use crate::preview_controller::PreviewController;
 use crate::proportions::PatternProportions;
 use crate::walk_velocity::VelocityMap;
+use crate::weight_shift::WeightShift;
 
 /// Knots of the ZMP reference: 1.8 s, after which e^(−6) is left of the influence of a reference.
 pub(crate) const KNOTS_PREVIEWED: usize = 180;
@@ -41,6 +42,8 @@ pub(crate) struct PatternModel {
     pub velocity: VelocityMap,
     /// Displacement of the centre of mass per displacement of the pelvis while both feet stay (-).
     pub com_per_pelvis: f64,
+    /// The weight shift with which it starts from a stand.
+    pub weight_shift: WeightShift,
     /// Plans the centre of mass over the feet.
     pub com_controller: PreviewController,
     /// Plans its correction for the dynamics of the whole body.
@@ -65,6 +68,7 @@ impl PatternModel {
             reach,
             proportions: PatternProportions::of(mechanism),
             velocity: VelocityMap::new(mechanism, table),
+            weight_shift: WeightShift::AT_LEISURE,
             com_per_pelvis: com_per_pelvis(mechanism, &tree, table),
             tree,
             lipm_residual,
