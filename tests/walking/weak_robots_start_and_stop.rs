@@ -22,8 +22,8 @@ fn standing(name: &str, spoil: impl Fn(&mut Mechanism)) -> Walking {
     let mut mechanism = Mechanism::load(file("mechanism.toml")).expect("it is committed");
     let nominal = NominalTable::read_csv(&file("nominal_half_step.csv")).expect("it is committed");
     spoil(&mut mechanism);
-    let controller = controller::Parameters::load(&file("controller.toml")).expect("it is committed");
-    let plant = plant::PlantParameters::load(&file("plant.toml")).expect("it is committed");
+    let controller = controller::Parameters::load(file("controller.toml")).expect("it is committed");
+    let plant = plant::PlantParameters::load(file("plant.toml")).expect("it is committed");
     Walking::stand_by(&mechanism, Arc::new(nominal), &controller, &plant, 0)
 }
 

@@ -83,14 +83,14 @@ mod tests {
         let refused = |reason| Reply { active_limit, place: Some(7), ..reply(Verdict::Refused, reason) };
         assert_eq!(
             reply_text(&goes_to(footsteps(9), PlaceFrame::Walk), &refused(Reason::StepTooFar)),
-            "refused: footstep 7: the foot would land too far from the other one (0.512 m, limit 0.42 m)"
+            "refused: footstep 7: the foot would land too far from the other one (0.512 m, must be at most 0.42 m)"
         );
         let turned = Reply {
             active_limit: active_limit.map(|limit| ActiveLimit { limit: 0.0, ..limit }),
             ..refused(Reason::StepTurn)
         };
         let text = reply_text(&goes_to(footsteps(9), PlaceFrame::Walk), &turned);
-        assert!(text.ends_with("(29.335°, limit 0°)"), "{text}");
+        assert!(text.ends_with("(29.335°, must be at most 0°)"), "{text}");
         let not_finite = Reply { place: Some(2), ..reply(Verdict::Refused, Reason::NotFinite) };
         assert_eq!(
             reply_text(&goes_to(waypoints(&[None; 2]), PlaceFrame::Walk), &not_finite),

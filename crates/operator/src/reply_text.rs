@@ -147,9 +147,11 @@ fn problem_text(request: &Request, reply: &Reply) -> String {
     }
     let Some(ActiveLimit { joint, value, limit }) = reply.active_limit else { return reply.reason.to_string() };
     let LimitUnit { per_si, name } = LimitUnit::of(reply.reason);
+    // Some limits are bounds from below, and some are on one side or the other.
+    let side = if value < limit { "at least" } else { "at most" };
     let [value, limit] = [value, limit].map(|number| (number * per_si * 1e3).round() / 1e3 + 0.0);
     let joint = joint.map(|joint| format!("joint {} ({}) ", joint.number(), joint.name())).unwrap_or_default();
-    format!("{} ({joint}{value}{name}, limit {limit}{name})", reply.reason)
+    format!("{} ({joint}{value}{name}, must be {side} {limit}{name})", reply.reason)
 }
 
 /// The granted values of everything that was requested.
@@ -224,7 +226,7 @@ mod tests {
         assert_eq!(
             reply_text(&faster(), &limited),
             "limited to speed 1, from half-step 12: a joint would exceed its rate limit (joint 5 (right_knee) \
-             14.5 °/s, limit 12 °/s); predicted ZMP margin 21.4 mm"
+             14.5 °/s, must be at most 12 °/s); predicted ZMP margin 21.4 mm"
         );
         let json = serde_json::to_value(ReplyJson::from(&limited)).unwrap();
         let bound = serde_json::json!({"joint": 5, "value": 14.5, "limit": 12.0, "unit": "°/s"});
@@ -233,8 +235,29 @@ mod tests {
         let active_limit = Some(ActiveLimit { joint: None, value: 9.0, limit: 1.4 });
         assert_eq!(
             reply_text(&faster(), &Reply { active_limit, ..reply(Verdict::Refused, Reason::SpeedLimit) }),
-            "refused: the speed is outside the permitted range (9, limit 1.4)"
+            "refused: the speed is outside the permitted range (9, must be at most 1.4)"
         );
+    }
+
+    /// A sole that the body turns must be held from turning by a moment of at least so much, and negative values have
+    /// their limits on the other side.
+    #[test]
+    fn a_value_below_its_limit_must_be_at_least_that() {
+        for (reason, value, limit, text) in [
+            (Reason::YawTorque, 2.5, 4.0, "2.5 N·m, must be at least 4 N·m"),
+            (Reason::YawTorque, -7.0, -6.0, "-7 N·m, must be at least -6 N·m"),
+            (Reason::YawTorque, -2.0, -3.0, "-2 N·m, must be at most -3 N·m"),
+            (Reason::Torque, -60.0, -50.0, "-60 N·m, must be at least -50 N·m"),
+            (Reason::Torque, 60.0, 50.0, "60 N·m, must be at most 50 N·m"),
+            (Reason::Margin, -0.002, 0.0, "-2 mm, must be at least 0 mm"),
+            (Reason::SoleClearance, 0.01, 0.02, "10 mm, must be at least 20 mm"),
+            (Reason::Friction, 0.8, 0.7, "0.8, must be at most 0.7"),
+            (Reason::SpeedLimit, 0.3, 0.5, "0.3, must be at least 0.5"),
+        ] {
+            let active_limit = Some(ActiveLimit { joint: None, value, limit });
+            let text = format!("refused: {reason} ({text})");
+            assert_eq!(reply_text(&faster(), &Reply { active_limit, ..reply(Verdict::Refused, reason) }), text);
+        }
     }
 
     #[test]
