@@ -70,7 +70,15 @@ fn impossible_held_joints_are_refused_with_their_lines() {
     let (joints, tables) = text.split_at(held);
     let heavy = format!("{joints}{}", tables.replacen("mass_kg = ", "mass_kg = 9", 1));
     let errors = read(&heavy).expect_err("more than all of the link");
-    assert!(errors.contains("mechanism.toml:"), "{errors}");
+    let line = heavy[..heavy.find("mass_kg = 9").expect("it is there")].matches('\n').count() + 1;
+    let first = format!("mechanism.toml:{line}:11: held[0].mass_kg");
+    assert!(errors.starts_with(&first) && errors.contains("must leave a body of joint."), "{first}: {errors}");
+    // What is carried by a joint that is wrong is not wrong, too.
+    let carrier = "urdf = \"left_shoulder_roll_joint\"";
+    let at = text.find(carrier).expect("it carries the upper arm");
+    let lost = format!("{}{}", &text[..at], text[at..].replacen("parent = \"", "parent = \"no_", 1));
+    let errors = read(&lost).expect_err("there is no such joint");
+    assert_eq!(errors.lines().count(), 1, "{errors}");
     let massless = format!("{joints}{}", tables.replacen("armature_kg_m2 = ", "armature_kg_m2 = 0 # ", 1));
     assert!(read(&massless).expect_err("no rotor").contains("armature_kg_m2"));
 }

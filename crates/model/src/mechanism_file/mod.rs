@@ -34,7 +34,7 @@ impl Config for Mechanism {
         let mut mechanism = Mechanism { name, links, order, sole, servos, source, fingerprint: 0, body_fingerprint: 0 };
         if stands_on_its_sole(&tables, &mechanism) {
             symmetry::check(&tables, &mechanism);
-            held::check(&tables, &mechanism);
+            held::check(root, &mechanism);
         }
         (mechanism.fingerprint, mechanism.body_fingerprint) = fingerprint::of(&mechanism);
         mechanism
