@@ -2,7 +2,7 @@
 
 use dynamics::{Kinematics, Tree};
 use gait::NominalTable;
-use model::Mechanism;
+use model::{LegReach, Mechanism};
 
 use super::chart::{Chart, Map, Pen, maps};
 use super::colours::EDGE;
@@ -10,7 +10,7 @@ use super::sticks::{draw_stick_figure, key_sticks};
 
 /// Number of figures.
 const FIGURES: usize = 7;
-/// Scale of the picture (px/m).
+/// Scale of the picture of the paper's robot (px/m); others are drawn as large.
 const SCALE: f64 = 380.0;
 
 /// Draws side and front view of the nominal half-step on the right foot.
@@ -30,5 +30,8 @@ pub fn nominal_stick(table: &NominalTable, mechanism: &Mechanism) -> String {
     key_sticks(&mut front_view);
     let every = table.duration / (FIGURES - 1) as f64;
     let title = format!("Nominal half-step of {} s, figures every {:.0} ms", table.duration, every * 1e3);
-    maps(&title, [side_view, front_view].map(|chart| Map { chart, scale: SCALE }).into())
+    maps(
+        &title,
+        [side_view, front_view].map(|chart| Map { chart, scale: SCALE / LegReach::of(mechanism).scale() }).into(),
+    )
 }

@@ -1,7 +1,7 @@
 //! The walk as stick figures, from the side and from the front.
 
 use dynamics::{Kinematics, Tree};
-use model::{Mechanism, Side};
+use model::{LegReach, Mechanism, Side};
 use nalgebra::{Vector2, Vector3};
 
 use super::chart::{Chart, Map, Pen, maps};
@@ -12,8 +12,11 @@ use crate::run_log::{PlantRow, RunLog};
 
 /// Time between two figures of the side view, and of the front view (s).
 const INTERVALS: [f64; 2] = [0.2, 0.4];
+// The following are for the paper's robot; others are drawn in proportion.
 /// Distance between two figures of the front view (m).
 const APART: f64 = 0.7;
+/// Height of the times over the front view, and its height (m).
+const TIMES: [f64; 2] = [1.78, 1.84];
 /// Scales of the side view and of the front view (px/m).
 const SCALES: [f64; 2] = [520.0, 190.0];
 
@@ -34,6 +37,7 @@ struct Posture {
 pub fn stick_walk(log: &RunLog, mechanism: &Mechanism) -> String {
     let rows = rows_between(log, stretch(log));
     let postures = postures(rows, mechanism);
+    let size = LegReach::of(mechanism).scale();
 
     let mut side_view = Chart::new("along the walk [m]", "z [m]");
     for posture in &postures {
@@ -51,12 +55,12 @@ pub fn stick_walk(log: &RunLog, mechanism: &Mechanism) -> String {
     );
     for (index, posture) in postures.iter().step_by(every).enumerate() {
         let left = Vector2::new(-posture.forward.y, posture.forward.x);
-        let moved = APART * index as f64;
+        let moved = size * APART * index as f64;
         draw_stick_figure(&mut front_view, mechanism, &posture.kinematics, |point| {
             [moved + left.dot(&(point.xy() - posture.place)), point.z]
         });
-        front_view.text(format!("{:.1} s", posture.time), [moved, 1.78]);
-        front_view.include(&[[moved, 1.84]]);
+        front_view.text(format!("{:.1} s", posture.time), [moved, size * TIMES[0]]);
+        front_view.include(&[[moved, size * TIMES[1]]]);
     }
     floor(&mut front_view);
 
@@ -66,7 +70,7 @@ pub fn stick_walk(log: &RunLog, mechanism: &Mechanism) -> String {
         title += &format!("; it fell at {fall:.1} s");
     }
     let charts = [(side_view, SCALES[0]), (front_view, SCALES[1])];
-    maps(&title, charts.map(|(chart, scale)| Map { chart, scale }).into())
+    maps(&title, charts.map(|(chart, scale)| Map { chart, scale: scale / size }).into())
 }
 
 fn floor(chart: &mut Chart) {

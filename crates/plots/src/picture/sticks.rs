@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use dynamics::Kinematics;
-use model::{Mechanism, Side};
+use model::{LegReach, Mechanism, Side};
 use nalgebra::{Point3, Vector3};
 use synthesis::StickFigure;
 
@@ -12,7 +12,7 @@ use super::chart::{Chart, Pen, Point};
 const RIGHT_LIMBS: Pen = Pen::solid("#00456E", 1.5);
 const LEFT_LIMBS: Pen = Pen::solid("#F0A060", 1.3);
 const BODY: Pen = Pen::solid("#444444", 1.3);
-/// Radius of the head (m).
+/// Radius of the head of the paper's robot (m); others have it in proportion.
 const HEAD_RADIUS: f64 = 0.09;
 
 /// Draws the robot as `onto` projects its points; its right limbs come last, over the others.
@@ -38,9 +38,10 @@ pub(super) fn draw_stick_figure(
     chart.line([right, figure.waist, left, right].map(|point| onto(&point)), BODY);
     chart.line([0, 1].map(|side| onto(&figure.arms[side].shoulder)), BODY);
     let down = (figure.neck - figure.head).normalize();
-    let chin = figure.head + 2.0 * HEAD_RADIUS * down;
+    let radius = HEAD_RADIUS * LegReach::of(mechanism).scale();
+    let chin = figure.head + 2.0 * radius * down;
     chart.line([figure.waist, figure.neck, chin].map(|point| onto(&point)), BODY);
-    chart.line(circle(onto(&(figure.head + HEAD_RADIUS * down)), HEAD_RADIUS), BODY);
+    chart.line(circle(onto(&(figure.head + radius * down)), radius), BODY);
     draw_side(chart, Side::Right, RIGHT_LIMBS);
 }
 
