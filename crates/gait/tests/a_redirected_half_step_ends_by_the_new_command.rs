@@ -11,7 +11,7 @@ use proptest::prelude::*;
 
 fn command() -> impl Strategy<Value = Command> {
     let angle = |max: f64| prop_oneof![Just(0.0), -max..max];
-    (angle(0.5), angle(0.14), angle(0.25)).prop_map(|(turn, extension, sidestep)| Command {
+    (angle(0.5), angle(0.139), angle(0.25)).prop_map(|(turn, extension, sidestep)| Command {
         turn,
         extension,
         sidestep,

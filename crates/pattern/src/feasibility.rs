@@ -10,6 +10,7 @@ use nalgebra::{Point3, Vector2};
 
 use crate::gait::Gait;
 use crate::limit::{ANKLES, Excess, Limit, LimitViolation};
+use crate::pace::Pace;
 use crate::pattern_generator::PatternGenerator;
 use crate::proportions::PatternProportions;
 use crate::sole_friction::SoleFriction;
@@ -20,6 +21,8 @@ use crate::start_overload::StartOverload;
 pub struct Feasibility {
     /// Least distance of the planned ZMP to the edge of the support sole, off the support changes (m).
     pub margin: f64,
+    /// The least one at the knots alone (m).
+    margin_at_knots: f64,
     /// The limit that is violated first, if any.
     pub violation: Option<LimitViolation>,
     /// The half-step in which that is, counted from 0.
@@ -50,12 +53,17 @@ pub struct FeasibilityParameters {
 const OFF_SUPPORT_CHANGES: std::ops::Range<f64> = 0.1..0.9;
 /// Progress between which the swing sole must be off the ground.
 const MID_SWING: std::ops::Range<f64> = 0.3..0.7;
-/// Parts into which the time between two knots is divided around a support change: a millisecond each.
+/// Parts into which the time between two knots is divided around a support change, and after a velocity was asked for:
+/// a millisecond each.
 const PARTS_NEAR_SUPPORT_CHANGE: u32 = 10;
+/// Knots after such a request within which the ZMP may move so fast that it overshoots.
+const KNOTS_AFTER_CHANGE: usize = 6;
 /// Parts into which it is divided where a drive comes near its limit.
 const PARTS_NEAR_LIMIT: u32 = 4;
-/// Ample distance of the ZMP to the edge of a sole, as a share of half of its width.
+/// Ample distance of the ZMP to the edge of a sole at the knots, as a share of half of its width.
 const AMPLE: f64 = 0.5;
+/// The same between knots, where the ZMP overshoots for some milliseconds.
+const AMPLE_BETWEEN_KNOTS: f64 = 0.25;
 /// Share of its limit from which a drive comes near it.
 const NEAR_LIMIT: f64 = 0.85;
 /// Just before and after a support change, as a share of the time between two knots.
@@ -85,11 +93,14 @@ impl FeasibilityCheck {
         }
     }
 
-    /// Whether a motion keeps every limit, and its ZMP stays as far from the edge of the sole as in a walk that does
-    /// not change.
+    /// Whether a motion keeps every limit, and its ZMP stays about as far from the edge of the sole as in a walk that
+    /// does not change.
     pub fn is_ample(&self, feasibility: &Feasibility) -> bool {
         let Sole { inside, outside, .. } = self.mechanism.sole;
-        feasibility.violation.is_none() && feasibility.margin >= AMPLE * 0.5 * (inside + outside)
+        let half_width = 0.5 * (inside + outside);
+        feasibility.violation.is_none()
+            && feasibility.margin_at_knots >= AMPLE * half_width
+            && feasibility.margin >= AMPLE_BETWEEN_KNOTS * half_width
     }
 
     /// Advances a generator knot by knot and checks the motion between them, as long as `goes_on` says so of the
@@ -106,7 +117,8 @@ impl FeasibilityCheck {
                 break;
             }
             generator.advance_to_next_knot();
-            self.check_until_next_knot(generator, &mut feasibility);
+            let is_sudden = knots < KNOTS_AFTER_CHANGE && generator.pace() != Pace::AtOnce;
+            self.check_until_next_knot(generator, is_sudden, &mut feasibility);
         }
         let (margin, margin_min) = (feasibility.margin, self.parameters.margin_min);
         if margin < margin_min {
@@ -117,16 +129,25 @@ impl FeasibilityCheck {
     }
 
     /// Checks the motion from the present knot to the next one, and returns to the present knot.
-    fn check_until_next_knot(&mut self, generator: &mut PatternGenerator, feasibility: &mut Feasibility) {
+    ///
+    /// * `is_sudden` – whether the motion may change so fast that limits are exceeded between the knots
+    fn check_until_next_knot(
+        &mut self,
+        generator: &mut PatternGenerator,
+        is_sudden: bool,
+        feasibility: &mut Feasibility,
+    ) {
         if generator.is_leg_out_of_reach() {
             feasibility.half_step = generator.half_step().index;
             feasibility.note(Limit::LegReach, 0.0, 0.0);
             return;
         }
         feasibility.load = 0.0;
-        self.check(generator, feasibility);
+        if self.check(generator, feasibility) {
+            feasibility.margin_at_knots = feasibility.margin_at_knots.min(self.dynamics.margin);
+        }
         self.check_start(generator, feasibility);
-        let parts = if generator.is_near_support_change() {
+        let parts = if is_sudden || generator.is_near_support_change() {
             PARTS_NEAR_SUPPORT_CHANGE
         } else if feasibility.load > NEAR_LIMIT {
             PARTS_NEAR_LIMIT
@@ -150,8 +171,8 @@ impl FeasibilityCheck {
         feasibility.overload.note(&self.mechanism, half_step.index, generator.in_double_support(), &torques);
     }
 
-    /// Checks the present instant.
-    fn check(&mut self, generator: &PatternGenerator, feasibility: &mut Feasibility) {
+    /// Checks the present instant. Returns whether its margin counts.
+    fn check(&mut self, generator: &PatternGenerator, feasibility: &mut Feasibility) -> bool {
         let (tree, mirror) = (generator.tree(), generator.walk().mirror());
         let (half_step, in_double_support) = (generator.half_step(), generator.in_double_support());
         let motion = generator.motion();
@@ -173,6 +194,7 @@ impl FeasibilityCheck {
         // a torque.
         let ground_holds = is_swinging || in_double_support || self.dynamics.margin >= 0.0;
         self.check_joints(&motion, &torques, ground_holds, feasibility);
+        is_swinging
     }
 
     /// * `motion`, `torques` – of physical joints
@@ -233,6 +255,7 @@ impl Default for Feasibility {
     fn default() -> Self {
         Self {
             margin: f64::INFINITY,
+            margin_at_knots: f64::INFINITY,
             violation: None,
             violated_in: None,
             half_step: 0,
@@ -259,6 +282,7 @@ impl Feasibility {
     #[must_use]
     pub fn and(mut self, other: &Feasibility) -> Self {
         self.margin = self.margin.min(other.margin);
+        self.margin_at_knots = self.margin_at_knots.min(other.margin_at_knots);
         if self.violation.is_none() {
             (self.violation, self.violated_in) = (other.violation, other.violated_in);
         }

@@ -81,6 +81,11 @@ impl FootstepPlan {
         self.command
     }
 
+    /// The pace at which the walk changes over to it.
+    pub(crate) fn pace(&self) -> Pace {
+        self.pace
+    }
+
     /// Puts in force what the limits of the gait grant of a request. See [`Walk::admit`].
     ///
     /// * `pace` – at which the walk changes over to it

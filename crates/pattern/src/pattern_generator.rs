@@ -140,6 +140,11 @@ impl PatternGenerator {
         self.replan_soon(PlanChange { goal: Some(goal), ..PlanChange::default() });
     }
 
+    /// The pace at which the walk changes over to the command in force.
+    pub(crate) fn pace(&self) -> Pace {
+        self.plan.footsteps().pace()
+    }
+
     /// The state of the gait at the newest knot.
     pub fn gait_state(&self) -> GaitState {
         self.plan.gait_state()
