@@ -82,7 +82,7 @@ fn random_velocities_follow_each_other_without_a_fall() {
     }
 }
 
-/// In the moments after a reply, while the walk changes, the planned ZMP stays as far inside the sole as the reply says.
+/// In the moments after a reply, while the walk changes, the planned ZMP stays as far inside the sole as it says.
 /// A margin of 22 mm was once followed by a ZMP 8 mm outside. Later what is measured moves the plan, too.
 #[test]
 fn the_planned_zmp_keeps_the_margin_that_a_reply_predicts_while_the_walk_changes() {
