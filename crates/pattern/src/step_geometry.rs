@@ -113,7 +113,7 @@ impl StepGeometry {
     /// The offsets of the legs with which the swing sole lands at a place, in support coordinates. A place out of
     /// reach is approached as far as the legs swing.
     pub(crate) fn legs(&self, landing: &SolePose) -> LegOffsets {
-        // Seen between the headings of both feet, legs that are not turned land where those lines say.
+        // In the frame between the headings of both feet. Without a turn, reach and spread are exact there.
         let between = |sole: &SolePose, turn: f64| {
             let (sine, cosine) = sin_cos(-turn);
             Matrix2::new(cosine, -sine, sine, cosine) * sole.position.xy()

@@ -98,7 +98,7 @@ impl VelocityMap {
 
     /// How far a full step moves the middle between the feet: ahead and to the left (m), and the turn (rad).
     fn full_step(&self, &Command { turn, extension, sidestep, .. }: &Command) -> WalkVelocity {
-        // Seen from the foot that does not lead; mirrored if that is the left one.
+        // In support coordinates of the foot that does not lead, so that both leads are alike.
         let side = if turn != 0.0 { turn.signum() } else { sign(sidestep) };
         let reach = 0.5 * extension;
         let [turned, spread] = [0.5 * turn.abs(), 0.5 * sidestep.abs()];
