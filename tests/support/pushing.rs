@@ -2,7 +2,7 @@
 
 use interface::{GaitChange, Intent, Mode};
 use model::Side;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 use crate::walking::Walking;
 
@@ -11,35 +11,78 @@ pub const PUSH_DURATION: f64 = 0.1;
 /// How long a robot must walk on to have survived (s).
 pub const WALKS_ON: f64 = 6.0;
 
-/// Whither the trunk is pushed.
+/// Whither the trunk is pushed, seen from the support foot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// The way the support foot points.
     Forward,
-    /// Against it.
-    Back,
-    /// Outward over the support foot.
-    ToSupport,
+    /// Ahead and towards the swinging foot.
+    ForwardToSwing,
     /// Towards the swinging foot.
     ToSwing,
+    /// Back and towards the swinging foot.
+    BackToSwing,
+    /// Against the way the support foot points.
+    Back,
+    /// Back and outward over the support foot.
+    BackToSupport,
+    /// Outward over the support foot.
+    ToSupport,
+    /// Ahead and outward over the support foot.
+    ForwardToSupport,
 }
 
 impl Direction {
-    /// All four.
-    pub const ALL: [Direction; 4] = [Direction::Forward, Direction::Back, Direction::ToSupport, Direction::ToSwing];
+    /// All eight, each 45° from the one before.
+    pub const ALL: [Direction; 8] = [
+        Direction::Forward,
+        Direction::ForwardToSwing,
+        Direction::ToSwing,
+        Direction::BackToSwing,
+        Direction::Back,
+        Direction::BackToSupport,
+        Direction::ToSupport,
+        Direction::ForwardToSupport,
+    ];
+
+    /// The impulse that the robot must survive at every phase of the nominal half-step (N·s).
+    pub fn demanded(self) -> f64 {
+        match self {
+            Direction::Forward => 34.0,
+            Direction::ForwardToSwing => 15.0,
+            Direction::ToSwing => 11.0,
+            Direction::BackToSwing => 15.0,
+            Direction::Back => 30.0,
+            Direction::BackToSupport => 20.0,
+            Direction::ToSupport => 15.0,
+            Direction::ForwardToSupport => 20.0,
+        }
+    }
+
+    /// A unit vector: ahead, and towards the swinging foot.
+    pub fn ahead_and_to_swing(self) -> Vector2<f64> {
+        let diagonal = std::f64::consts::FRAC_1_SQRT_2;
+        let [ahead, to_swing] = match self {
+            Direction::Forward => [1.0, 0.0],
+            Direction::ForwardToSwing => [diagonal, diagonal],
+            Direction::ToSwing => [0.0, 1.0],
+            Direction::BackToSwing => [-diagonal, diagonal],
+            Direction::Back => [-1.0, 0.0],
+            Direction::BackToSupport => [-diagonal, -diagonal],
+            Direction::ToSupport => [0.0, -1.0],
+            Direction::ForwardToSupport => [diagonal, -diagonal],
+        };
+        Vector2::new(ahead, to_swing)
+    }
 
     /// In world axes, for a robot that bears on `support`.
     pub fn in_world(self, walking: &Walking, support: Side) -> Vector3<f64> {
         let ahead = walking.plant.truth().soles[support.index()].rotation * Vector3::x();
         let ahead = Vector3::new(ahead.x, ahead.y, 0.0).normalize();
         let left = Vector3::z().cross(&ahead);
-        let to_support = if support == Side::Right { -left } else { left };
-        match self {
-            Direction::Forward => ahead,
-            Direction::Back => -ahead,
-            Direction::ToSupport => to_support,
-            Direction::ToSwing => -to_support,
-        }
+        let to_swing = if support == Side::Right { left } else { -left };
+        let along = self.ahead_and_to_swing();
+        ahead * along.x + to_swing * along.y
     }
 }
 

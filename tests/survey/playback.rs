@@ -12,7 +12,9 @@ use model::{ComState, Mechanism, Mirrored, Motion};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use paper::PaperLean;
 use plant::Plant;
-use stabilizer::{BalanceState, DcmFeedback, FeedbackParameters, SupportFrameMeasurement, estimate_com};
+use stabilizer::{
+    BalanceState, ContactEstimate, DcmFeedback, FeedbackParameters, SupportFrameMeasurement, estimate_com,
+};
 
 use halfstep_tests::walking::PERIOD;
 
@@ -121,6 +123,6 @@ impl Playback {
         let (support, mirror) = (self.walk.half_step().support, self.walk.mirror());
         let sensed = SupportFrameMeasurement::new(support, mirror, &self.measured, up);
         self.kinematics.compute_fixed_base(&self.tree, &sensed.angles);
-        estimate_com(&self.tree, &self.kinematics, &sensed)
+        estimate_com(&self.tree, &self.kinematics, &sensed, &ContactEstimate::AIRBORNE)
     }
 }

@@ -28,8 +28,6 @@ pub(crate) struct Options {
     seed: u64,
 }
 
-/// What must be survived at every phase (N·s): forward and back, and sideways.
-const DEMANDED: [f64; 2] = [15.0, 6.0];
 /// Impulses are tried in these steps, up to the first that fells the robot, and then halved down (N·s).
 const STEP: f64 = 2.0;
 const RESOLUTION: f64 = 0.25;
@@ -54,19 +52,31 @@ pub(crate) fn survey(options: &Options) -> bool {
             survived.iter().skip(direction).step_by(directions.len()).copied().fold(f64::INFINITY, f64::min)
         })
         .collect();
+    let medians = (0..directions.len()).map(|direction| {
+        let mut all: Vec<f64> = survived.iter().skip(direction).step_by(directions.len()).copied().collect();
+        all.sort_by(f64::total_cmp);
+        format!("{:.2}", all[all.len() / 2])
+    });
     rows.push(std::iter::once("least".into()).chain(least.iter().map(|impulse| format!("{impulse:.2}"))).collect());
-    let demanded = directions.map(demanded);
+    rows.push(std::iter::once("median".into()).chain(medians).collect());
+    let demanded = directions.map(Direction::demanded);
     rows.push(std::iter::once("demanded".into()).chain(demanded.map(|impulse| format!("{impulse:.2}"))).collect());
     println!("N·s over {PUSH_DURATION} s at the trunk, survived if it walks {WALKS_ON} s later:");
-    table::print(&["progress", "forward", "back", "to support side", "to swing side"], &rows);
+    table::print(
+        &[
+            "progress",
+            "forward",
+            "forward, swing",
+            "swing side",
+            "back, swing",
+            "back",
+            "back, support",
+            "support side",
+            "forward, support",
+        ],
+        &rows,
+    );
     std::iter::zip(least, demanded).all(|(least, demanded)| least >= demanded)
-}
-
-fn demanded(direction: Direction) -> f64 {
-    match direction {
-        Direction::Forward | Direction::Back => DEMANDED[0],
-        Direction::ToSupport | Direction::ToSwing => DEMANDED[1],
-    }
 }
 
 /// The largest impulse below all that fell it. Where a robot falls is not monotonic: so all from none upwards are

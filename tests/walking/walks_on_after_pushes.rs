@@ -4,8 +4,6 @@
 use halfstep_tests::pushing::{Direction, survives, walk_to};
 use interface::GaitChange;
 
-/// Forward and back, and sideways (N·s).
-const IMPULSES: [f64; 2] = [15.0, 6.0];
 const PHASES: u32 = 12;
 
 #[test]
@@ -14,10 +12,7 @@ fn walks_on_after_pushes_from_any_side_at_any_phase() {
         let progress = f64::from(phase) / f64::from(PHASES);
         let walking = walk_to(7, GaitChange::default(), 5, progress).expect("the nominal walk goes on");
         for direction in Direction::ALL {
-            let impulse = match direction {
-                Direction::Forward | Direction::Back => IMPULSES[0],
-                Direction::ToSupport | Direction::ToSwing => IMPULSES[1],
-            };
+            let impulse = direction.demanded();
             assert!(survives(&walking, direction, impulse), "{impulse} N·s {direction:?} at {progress:.2}");
         }
     }

@@ -15,7 +15,7 @@ use interface::{
 };
 use model::{ComState, JointVector, Mechanism, Motion, Side};
 use nalgebra::Vector2;
-use pattern::{FeasibilityCheck, PatternGenerator, Stance, VelocityMap};
+use pattern::{BodyTilt, FeasibilityCheck, MeasuredBalance, PatternGenerator, Stance, VelocityMap};
 use stabilizer::{
     BalanceState, ComPrediction, ContactEstimate, DcmFeedback, LandingCompliance, WalkOdometry, ZmpEstimator,
 };
@@ -33,8 +33,9 @@ use crate::report::{Tick, added_angles, to_physical};
 
 /// Shortest period that a tick plays (s): rates are differences over it.
 const PERIOD_MIN: f64 = 1e-6;
-/// Least time for which measurements show an error before a step answers it (s): a faulty sensor is noticed within it.
-const UNCORRECTABLE_MIN: f64 = 0.005;
+/// Least time for which measurements call for another step before one is made (s): a faulty sensor is noticed within
+/// it.
+const PUSH_SEEN_MIN: f64 = 0.005;
 /// Longest period that a tick plays (s), shorter than any half-step: what a loop was late by beyond it is lost.
 const PERIOD_MAX: f64 = 0.1;
 
@@ -61,6 +62,8 @@ pub struct Controller {
     limiter: JointLimiter,
     /// The setpoint of the last tick, if the robot is to follow it.
     last_setpoint: Option<Setpoint>,
+    /// The part of its angles by which feedback leans on the ground (rad).
+    yielding: JointVector,
     /// The last valid joint angles (rad).
     measured_angles: Option<JointVector>,
     /// The joint by which the robot was found in another posture than the controller begins in, while it holds it.
@@ -69,8 +72,8 @@ pub struct Controller {
     com_prediction: ComPrediction,
     odometry: WalkOdometry,
     velocity_map: VelocityMap,
-    /// For how long measurements have shown an error that the ankles cannot correct (s).
-    uncorrectable_for: f64,
+    /// For how long measurements have called for another step (s).
+    push_seen_for: f64,
     /// Time since the first tick began (s).
     time: f64,
     /// The latched fault as of the last tick.
@@ -144,13 +147,14 @@ impl Controller {
             landing: LandingCompliance::new(mechanism, parameters.stabilizer.landing),
             limiter: JointLimiter::new(mechanism, &first),
             last_setpoint: None,
+            yielding: JointVector::ZERO,
             measured_angles: None,
             unexpected_posture: None,
             gravity: GravityConsistency::default(),
             com_prediction: ComPrediction::default(),
             odometry,
             velocity_map: VelocityMap::new(mechanism, walk.table()),
-            uncorrectable_for: 0.0,
+            push_seen_for: 0.0,
             time: 0.0,
             latched: None,
             rest,
@@ -280,13 +284,17 @@ impl Controller {
         self.landing.update(loads, dt);
 
         let gait = self.pattern.gait_mut();
-        gait.set_tilt(if com.is_some() && !in_double_support { self.tilt } else { Vector2::zeros() });
-        let Some(growth) = gait.growth_until_touchdown().filter(|_| com.is_some()) else { return };
-        let error = self.feedback.uncorrectable_error(growth);
-        let is_seen = is_measured && error != Vector2::zeros();
-        self.uncorrectable_for = if is_seen { self.uncorrectable_for + dt } else { 0.0 };
-        if error == Vector2::zeros() || self.uncorrectable_for > UNCORRECTABLE_MIN {
-            gait.adjust_step(error);
+        let tilt = if com.is_some() && !in_double_support { self.tilt } else { Vector2::zeros() };
+        gait.set_tilt(BodyTilt { tilt, in_recovery: self.feedback.is_recovering() });
+        if com.is_none() || in_double_support || !self.feedback.is_recovering() {
+            self.push_seen_for = 0.0;
+            return;
+        }
+        let dcm = self.reference.com.divergent_component() + self.feedback.step_error();
+        let choice = gait.choose_step(&MeasuredBalance { dcm, zmp_bounds: self.feedback.zmp_bounds() });
+        self.push_seen_for = if is_measured && choice.is_some() { self.push_seen_for + dt } else { 0.0 };
+        if let Some(choice) = choice.filter(|_| self.push_seen_for > PUSH_SEEN_MIN) {
+            gait.adjust_step(choice);
         }
     }
 
@@ -334,6 +342,7 @@ impl Controller {
         let (support, mirror) = (gait.half_step().support, gait.walk().mirror());
         let motion = mirror.to_physical(support, commanded);
         let torques = mirror.to_physical(support, &self.reference.torques);
+        self.yielding = mirror.to_physical(support, &self.feedback.offsets().angles);
         self.limiter.limit(&motion, &torques, dt, faults)
     }
 

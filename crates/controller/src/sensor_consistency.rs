@@ -69,7 +69,7 @@ impl SensorConsistency {
         // Each of them sees every sample.
         let frozen = self.frozen.update(measurement, &last, &expected.setpoint.rates, self.weight, dt);
         let trunk = self.trunk.update(measurement, &last, vertical, self.parameters.orientation_error_max, dt);
-        let joints = self.joints.update(measurement, &last, expected.setpoint, &self.parameters, dt);
+        let joints = self.joints.update(measurement, &last, expected, &self.parameters, dt);
         let shares = measurement.feet.map(|foot| foot.force.z / self.weight);
         let loads = self.loads.update(shares, expected.support, self.parameters.load_share, dt);
         frozen.or(trunk).or(joints).or(loads)

@@ -7,6 +7,7 @@ use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vect
 
 use crate::Tree;
 use crate::sin_cos::SinCos;
+use crate::twist::Twist;
 
 /// Poses of all links, in world axes.
 #[derive(Clone, Debug)]
@@ -121,26 +122,24 @@ impl Kinematics {
         ComState { position: self.com(tree), velocity: self.com_velocity(tree, rates).0 }
     }
 
-    /// Velocity of the centre of mass (m/s) and angular rate of every link (rad/s), the right sole at rest.
-    pub fn com_velocity(&self, tree: &Tree, rates: &JointVector) -> (Vector3<f64>, PerJoint<Vector3<f64>>) {
+    /// Velocity of the centre of mass (m/s) and the velocities of every link, the right sole at rest.
+    pub fn com_velocity(&self, tree: &Tree, rates: &JointVector) -> (Vector3<f64>, PerJoint<Twist>) {
         // About the common origin each joint moves what it carries with `rate · (axis, origin × axis)`.
-        let mut angular = PerJoint([Vector3::zeros(); Joint::COUNT]);
-        let mut linear = angular;
+        let at_rest = Twist { angular: Vector3::zeros(), linear: Vector3::zeros() };
+        let mut twists = PerJoint([at_rest; Joint::COUNT]);
         let mut momentum = Vector3::zeros();
         for &link in tree.order.all() {
             let node = &tree.nodes[link];
             let spin = self.axis[link] * rates[link];
-            let (parent_angular, parent_linear) = match node.parent {
-                Some(parent) => (angular[parent], linear[parent]),
-                None => (Vector3::zeros(), Vector3::zeros()),
-            };
-            angular[link] = parent_angular + spin;
-            linear[link] = parent_linear + self.origin[link].cross(&spin);
+            let parent = node.parent.map_or(at_rest, |parent| twists[parent]);
+            let twist =
+                Twist { angular: parent.angular + spin, linear: parent.linear + self.origin[link].cross(&spin) };
+            twists[link] = twist;
             if let Some(body) = &node.body {
                 let com = self.origin[link] + self.rotation[link] * body.com;
-                momentum += body.mass * (linear[link] + angular[link].cross(&com));
+                momentum += body.mass * twist.at(&com);
             }
         }
-        (momentum / tree.mass, angular)
+        (momentum / tree.mass, twists)
     }
 }

@@ -54,6 +54,7 @@ pub use sin_cos::sin_cos;
 pub use support_polygon::SupportPolygon;
 pub use time_scaling::{wrench_at_speed, zmp_at_speed};
 pub use tree::Tree;
+pub use twist::Twist;
 pub use upper_body::UpperBody;
 pub use walk_pose::{arc_between, pose_seen_from, poses_in_frame_of};
 pub use zmp::zmp;

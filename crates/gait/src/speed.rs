@@ -34,6 +34,8 @@ pub struct Speed {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct SpeedChange {
     ramp: Ramp,
+    /// How long the change takes (s).
+    duration: f64,
     /// Time since the change began, less than its duration (s).
     elapsed: f64,
 }
@@ -52,7 +54,7 @@ impl Speed {
     /// The present speed factor `c`, with `ċ` (1/s) and `c̈` (1/s²).
     pub fn state(&self) -> RampState {
         match self.change {
-            Some(change) => change.ramp.at(change.elapsed / self.duration).by(self.duration.recip()),
+            Some(change) => change.ramp.at(change.elapsed / change.duration).by(change.duration.recip()),
             None => RampState::at_rest(self.target),
         }
     }
@@ -60,12 +62,31 @@ impl Speed {
     /// Begins a change to `target` from the present speed, rate and acceleration. Commanding the same again changes
     /// nothing, so that a stream of equal commands does not postpone the end.
     pub fn request(&mut self, target: f64) {
-        if target == self.target {
-            return;
+        if target != self.target {
+            self.request_within(target, self.duration);
         }
-        let ramp = Ramp::new(self.kind, self.state().by(self.duration), target);
+    }
+
+    /// Begins a change to `target` that takes another time than usual (s).
+    pub fn request_within(&mut self, target: f64, duration: f64) {
+        let ramp = Ramp::new(self.kind, self.state().by(duration), target);
         self.target = target;
-        self.change = (self.duration > 0.0).then_some(SpeedChange { ramp, elapsed: 0.0 });
+        self.change = (duration > 0.0).then_some(SpeedChange { ramp, duration, elapsed: 0.0 });
+    }
+
+    /// Changes the speed so that a nominal time passes within another one, from the present speed on. It changes over
+    /// `ramp` (s) and stays.
+    ///
+    /// * `nominal` – nominal time that is to pass (s)
+    /// * `within` – how long that is to take, more than half of `ramp` (s)
+    pub fn cover(&mut self, nominal: f64, within: f64, ramp: f64) {
+        let RampState { value, rate, acceleration } = self.state().by(ramp);
+        // The integral of a ramp from this state to rest at c is (value + c)/2 + rate/10 + acceleration/120.
+        let on_the_way = match self.kind {
+            RampKind::Linear => value / 2.0,
+            RampKind::Quintic => value / 2.0 + rate / 10.0 + acceleration / 120.0,
+        };
+        self.request_within((nominal - ramp * on_the_way) / (within - ramp / 2.0), ramp);
     }
 
     /// The speed as it was some time ago (s), back to the beginning of the change in progress.
@@ -79,14 +100,15 @@ impl Speed {
         let Some(change) = &mut self.change else {
             return self.target * dt;
         };
-        let in_ramp = dt.min(self.duration - change.elapsed);
-        let before = change.ramp.integral(change.elapsed / self.duration);
+        let duration = change.duration;
+        let in_ramp = dt.min(duration - change.elapsed);
+        let before = change.ramp.integral(change.elapsed / duration);
         change.elapsed += in_ramp;
-        let after = change.ramp.integral(change.elapsed / self.duration);
-        if change.elapsed >= self.duration {
+        let after = change.ramp.integral(change.elapsed / duration);
+        if change.elapsed >= duration {
             self.change = None;
         }
-        self.duration * (after - before) + self.target * (dt - in_ramp)
+        duration * (after - before) + self.target * (dt - in_ramp)
     }
 }
 
@@ -117,6 +139,21 @@ mod tests {
         assert!((after.value - before.value).abs() < 1e-15);
         assert!((after.rate - before.rate).abs() < 1e-14);
         assert!((after.acceleration - before.acceleration).abs() < 1e-13);
+    }
+
+    #[test]
+    fn a_nominal_time_is_covered_within_the_time_asked_for() {
+        for kind in [RampKind::Linear, RampKind::Quintic] {
+            for (nominal, within) in [(0.4, 0.25), (0.4, 0.4), (0.2, 0.3), (0.1, 0.06)] {
+                let mut speed = Speed::new(1.0, kind, 0.6);
+                // From the middle of another change.
+                speed.request(1.4);
+                speed.advance(0.2);
+                speed.cover(nominal, within, 0.06);
+                let passed: f64 = (0..1000).map(|_| speed.advance(within / 1000.0)).sum();
+                assert!((passed - nominal).abs() < 1e-12, "{kind:?}: {passed} instead of {nominal} in {within} s");
+            }
+        }
     }
 
     #[test]

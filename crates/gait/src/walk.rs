@@ -161,6 +161,17 @@ impl Walk {
         self.speed = speed;
     }
 
+    /// Lets the present half-step end after a time (s), by a speed to which it changes over `ramp` (s).
+    pub fn end_half_step_in(&mut self, time: f64, ramp: f64) {
+        let left = (1.0 - self.half_step.progress) * self.table.duration;
+        self.speed.cover(left, time, ramp);
+    }
+
+    /// Changes to another speed within a time (s).
+    pub fn change_speed_within(&mut self, speed: f64, time: f64) {
+        self.speed.request_within(speed, time);
+    }
+
     /// Advances by `dt` (s) and returns whether a new half-step began. Progress beyond the end is carried over to it.
     ///
     /// A `dt` that is negative or NaN counts as 0, one longer than a nominal half-step as a nominal half-step.

@@ -29,6 +29,8 @@ pub(crate) struct DynamicsFilter {
     /// ZMP of the whole body less that of the cart-table model and the expected residual, at each of these knots, in
     /// the walk frame (m).
     unexpected: [Vector2<f64>; KNOTS_FILTERED + 2],
+    /// The largest of these that is corrected (m).
+    unexpected_max: f64,
     /// Slot of the present knot in the ring.
     present: usize,
     /// How many knots after the present one are computed.
@@ -63,6 +65,8 @@ struct FilterKnot {
     task: WholeBodyTask,
     /// Physical joint angles that fulfil it (rad).
     angles: JointVector,
+    /// Whether these do; else a leg is too short, and they are those of the knot before.
+    is_reached: bool,
     /// Expected ZMP of the whole body less that of the cart-table model, in the walk frame (m).
     expected_residual: Vector2<f64>,
 }
@@ -75,7 +79,7 @@ impl DynamicsFilter {
     pub(crate) fn new(model: &PatternModel, feet: &FootTrajectory, com: [CartState; 2], motion: &Motion) -> Self {
         let angles = feet.to_physical(model, &motion.angles);
         let task = feet.task(model, projection(&com));
-        let now = FilterKnot { com, task, angles, expected_residual: Vector2::zeros() };
+        let now = FilterKnot { com, task, angles, is_reached: true, expected_residual: Vector2::zeros() };
         let before = FilterKnot { angles: feet.to_physical(model, &(motion.angles - motion.rates * KNOT)), ..now };
         let mut knots = [before; KNOTS_FILTERED + 2];
         knots[0] = now;
@@ -87,6 +91,7 @@ impl DynamicsFilter {
             batch: Batch::default(),
             knots,
             unexpected: [Vector2::zeros(); KNOTS_FILTERED + 2],
+            unexpected_max: f64::INFINITY,
             present: 0,
             ahead: 0,
             correction_input: Vector2::zeros(),
@@ -98,12 +103,15 @@ impl DynamicsFilter {
 
     /// Computes all coming knots anew: the walk continues from the present knot by other footsteps.
     pub(crate) fn recompute(&mut self, model: &PatternModel, feet: &FootTrajectory) {
-        self.restart(model, feet);
+        self.restart(model, feet, f64::INFINITY);
         self.complete(model);
     }
 
     /// Discards the coming knots, which are to be computed by other footsteps.
-    pub(crate) fn restart(&mut self, model: &PatternModel, feet: &FootTrajectory) {
+    ///
+    /// * `unexpected_max` – largest unexpected ZMP that is corrected (m)
+    pub(crate) fn restart(&mut self, model: &PatternModel, feet: &FootTrajectory, unexpected_max: f64) {
+        self.unexpected_max = unexpected_max;
         self.foot_trajectory.clone_from(feet);
         self.zmp_reference.restart(model, &feet.footsteps);
         (self.ahead, self.stage) = (0, Stage::CentreOfMass);
@@ -226,6 +234,7 @@ impl DynamicsFilter {
             }
             Stage::Posture(before) => {
                 let solution = self.body.solve(model, &self.knots[new].task);
+                self.knots[new].is_reached = solution.is_ok();
                 self.knots[new].angles =
                     solution.map_or(self.knots[last].angles, |angles| self.foot_trajectory.to_physical(model, &angles));
                 Stage::Zmp(before)
@@ -252,19 +261,23 @@ impl DynamicsFilter {
         model.mirror.to_support(footprint.side, &Motion::between(before, here, after, KNOT))
     }
 
-    /// Records the unexpected part of the ZMP at the last knot; the new knot is taken to be alike.
+    /// Records the unexpected part of the ZMP at the last knot; the new knot is taken to be alike. Where a leg is too
+    /// short the posture jumps: that is not the ZMP of what will be played.
     ///
     /// * `footprint` – the support foot
     /// * `ground` – the wrench that the motion there needs
     fn record_unexpected(&mut self, model: &PatternModel, footprint: Footprint, ground: &Wrench) {
-        let [_, here, new] = self.last_three();
-        if let Some(point) = zmp(ground) {
+        let slots = self.last_three();
+        let [_, here, new] = slots;
+        let is_reached = slots.iter().all(|slot| self.knots[*slot].is_reached);
+        if let Some(point) = zmp(ground).filter(|_| is_reached) {
             let knot = &self.knots[here];
             let pendulum = Vector2::from([0, 1].map(|axis| {
                 let [position, _, acceleration] = knot.com[axis].into();
                 position - model.lipm_residual.height_over_gravity * acceleration
             }));
-            self.unexpected[here] = footprint.point_to_walk(point) - pendulum - knot.expected_residual;
+            let unexpected = footprint.point_to_walk(point) - pendulum - knot.expected_residual;
+            self.unexpected[here] = unexpected.map(|zmp| zmp.clamp(-self.unexpected_max, self.unexpected_max));
         }
         self.unexpected[new] = self.unexpected[here];
     }

@@ -1,12 +1,10 @@
 //! The execution of a plan: what is played and sensed at present. It stays when another plan takes over.
 
-use nalgebra::Vector2;
-
 use crate::ground_slope_estimator::GroundSlopeEstimator;
 use crate::knot::Knot;
 use crate::playback::Playback;
 use crate::proportions::PatternProportions;
-use crate::swing_clearance::SwingClearance;
+use crate::swing_clearance::{BodyTilt, SwingClearance};
 
 /// What is played and sensed at present.
 #[derive(Clone, Copy, Debug)]
@@ -17,8 +15,8 @@ pub(crate) struct Execution {
     pub slope: GroundSlopeEstimator,
     /// Additional height of the swing sole.
     pub clearance: SwingClearance,
-    /// Tilt of the body beyond the plan, about x and y of the newest knot's support coordinates (rad).
-    pub tilt: Vector2<f64>,
+    /// Tilt of the body beyond the plan, in the newest knot's support coordinates.
+    pub tilt: BodyTilt,
     /// Knots since the last step adjustment.
     pub knots_since_adjustment: u32,
     /// The half-step in which the way to a destination was corrected last.
@@ -32,7 +30,7 @@ impl Execution {
             playback: Playback::new(knots),
             slope: GroundSlopeEstimator::new(proportions),
             clearance: SwingClearance::default(),
-            tilt: Vector2::zeros(),
+            tilt: BodyTilt::default(),
             knots_since_adjustment: 0,
             located_in: None,
         }
@@ -41,6 +39,6 @@ impl Execution {
     /// Expresses tilt and clearance in support coordinates of the other foot, which supports from the newest knot on.
     pub(crate) fn change_support(&mut self) {
         self.clearance.change_support();
-        self.tilt.x = -self.tilt.x;
+        self.tilt.tilt.x = -self.tilt.tilt.x;
     }
 }

@@ -1,5 +1,7 @@
 //! The foot trajectory: what the half-steps demand of the body at a knot, apart from the centre of mass.
 
+mod step_after_push;
+
 use dynamics::{UpperBody, atan2};
 use gait::Walk;
 use model::JointVector;
@@ -8,11 +10,12 @@ use nalgebra::{Vector2, Vector3};
 use crate::footstep_plan::{FootstepEvent, FootstepPlan};
 use crate::gait_state::GaitState;
 use crate::hip_height::HipHeight;
-use crate::knot::KNOT;
 use crate::pattern_model::PatternModel;
 use crate::step_adjustment::StepAdjustment;
 use crate::swing_path::SwingPath;
 use crate::whole_body_ik::WholeBodyTask;
+
+pub use step_after_push::MeasuredBalance;
 
 /// The footsteps at a knot, with the paths of the swing sole and of the hip height between them.
 #[derive(Clone, Debug)]
@@ -76,55 +79,6 @@ impl FootTrajectory {
         footsteps.feet.landing = landing;
         footsteps.feet.landing.position += Vector3::new(adjusted.x, adjusted.y, 0.0);
         Some(effect_half_step)
-    }
-
-    /// Lands the swing foot off its planned place, as far as feet and legs allow. Returns whether that changed
-    /// anything; late in a half-step or before a stand nothing changes.
-    ///
-    /// * `offset` – from the planned place, in support coordinates (m)
-    pub(crate) fn adjust_step(&mut self, model: &PatternModel, offset: Vector2<f64>) -> bool {
-        if !self.is_worth_adjusting(model, offset, 0) {
-            return false;
-        }
-        let offset = self.within_reach(model, offset);
-        let landing = self.unadjusted_landing() + offset;
-        let position = &mut self.footsteps.feet.landing.position;
-        (position.x, position.y) = (landing.x, landing.y);
-        self.adjustment.retarget(self.footsteps.walk.half_step().progress, offset);
-        true
-    }
-
-    /// Whether [`adjust_step`](Self::adjust_step) would change anything so many knots from now.
-    pub(crate) fn is_worth_adjusting(&self, model: &PatternModel, offset: Vector2<f64>, knots: u32) -> bool {
-        let change = (self.within_reach(model, offset) - self.adjustment.target()).amax();
-        change > model.proportions.step_adjustment_change_min
-            && self.footsteps.gait_state.is_stepping()
-            && StepAdjustment::is_in_time(self.progress_in(knots))
-    }
-
-    /// Progress of the half-step so many knots from now, at the present speed.
-    fn progress_in(&self, knots: u32) -> f64 {
-        let walk = &self.footsteps.walk;
-        let per_knot = KNOT * walk.speed().state().value / walk.table().duration;
-        walk.half_step().progress + f64::from(knots) * per_knot
-    }
-
-    /// Where the swing foot would land without adjustment (m).
-    fn unadjusted_landing(&self) -> Vector2<f64> {
-        self.footsteps.feet.landing.position.xy() - self.adjustment.target()
-    }
-
-    /// The adjustment next to `offset` that keeps the soles apart and the legs within reach (m).
-    fn within_reach(&self, model: &PatternModel, offset: Vector2<f64>) -> Vector2<f64> {
-        let max = model.proportions.step_adjustment_max;
-        let inward = (model.proportions.sole_spacing_min - self.unadjusted_landing().y).min(0.0);
-        Vector2::new(offset.x.clamp(-max.x, max.x), offset.y.clamp(inward, max.y))
-    }
-
-    /// How many knots are left of the half-step at the present speed.
-    pub(crate) fn knots_left(&self) -> f64 {
-        let left = (1.0 - self.footsteps.walk.half_step().progress) * self.footsteps.walk.table().duration;
-        left / self.footsteps.walk.speed().state().value / KNOT
     }
 
     /// The task of the whole body at this knot.

@@ -32,8 +32,15 @@ pub(crate) struct FootstepPlan {
     begun_with: Command,
     /// The walk to a destination, also once the robot is there. It says where the feet land instead of the command.
     course: Option<Course>,
+    /// The speed factor to which the walk returns once the present half-step has ended, if that ends earlier or later
+    /// than planned.
+    speed_after: Option<f64>,
 }
 
+/// Time over which the speed changes so that a half-step ends earlier or later, at most (s).
+const TIMING_RAMP: f64 = 0.06;
+/// Time over which the speed returns in the half-step after it (s).
+const RETURN_RAMP: f64 = 0.15;
 /// Within so many knots a half-step ends, unless the robot comes to a stand or walks very slowly.
 const KNOTS_FORESEEN: usize = 200;
 
@@ -57,7 +64,17 @@ impl FootstepPlan {
         let feet = Feet { footprint, lift_off, landing: lift_off };
         let gait_state = GaitState::Walking;
         let (pace, weight_shift) = (Pace::AtOnce, model.weight_shift);
-        let mut plan = Self { walk, gait_state, feet, weight_shift, command, pace, begun_with: command, course: None };
+        let mut plan = Self {
+            walk,
+            gait_state,
+            feet,
+            weight_shift,
+            command,
+            pace,
+            begun_with: command,
+            course: None,
+            speed_after: None,
+        };
         plan.feet.landing = plan.landing(model);
         plan
     }
@@ -70,10 +87,27 @@ impl FootstepPlan {
         let gait_state = GaitState::Standing(Stance::Parallel);
         let (command, begun_with) = (walk.command(), Command::NOMINAL);
         let (pace, weight_shift) = (Pace::AtOnce, model.weight_shift);
-        let mut plan = Self { command, walk, gait_state, feet, weight_shift, pace, begun_with, course: None };
+        let mut plan =
+            Self { command, walk, gait_state, feet, weight_shift, pace, begun_with, course: None, speed_after: None };
         plan.walk.force(&Command::NOMINAL);
         plan.feet.landing = plan.landing(model);
         plan
+    }
+
+    /// Lets the present half-step end after a time (s).
+    pub(crate) fn end_half_step_in(&mut self, time: f64) {
+        self.speed_after.get_or_insert(self.walk.speed().target());
+        self.walk.end_half_step_in(time, TIMING_RAMP.min(time));
+    }
+
+    /// The speed factor of the half-steps as planned, whenever the present one ends.
+    pub(crate) fn planned_speed(&self) -> f64 {
+        self.speed_after.unwrap_or(self.walk.speed().target())
+    }
+
+    /// Whether the present half-step ends earlier or later than planned.
+    pub(crate) fn is_timed(&self) -> bool {
+        self.speed_after.is_some()
     }
 
     /// The command in force, or in force once the robot walks.
@@ -191,6 +225,9 @@ impl FootstepPlan {
         let was_standing = self.gait_state.is_standing();
         let begins = self.gait_state.advance(&mut self.walk, self.weight_shift);
         if begins {
+            if let Some(speed) = self.speed_after.take() {
+                self.walk.change_speed_within(speed, RETURN_RAMP);
+            }
             self.begun_with = self.walk.command();
             self.feet.lift_off = self.feet.landing.former_support();
             self.feet.footprint = self.feet.footprint.next(&self.feet.landing);

@@ -6,7 +6,7 @@ use interface::{Command, GaitChange, HalfStep, WalkPose};
 use model::Motion;
 use nalgebra::Vector2;
 
-use crate::{GaitPhase, Stance};
+use crate::{BodyTilt, GaitPhase, MeasuredBalance, Stance, StepChoice};
 
 /// Progress before and after a support change in which the weight may move from foot to foot, at nominal speed: 0.03 s
 /// of the paper's robot.
@@ -93,16 +93,13 @@ pub trait Gait {
     /// * `dt` – time since the last measurement (s)
     fn update_ground_slope(&mut self, lean: Vector2<f64>, dt: f64);
 
-    /// Absorbs the rotation of the body beyond the plan, about x and y (rad).
-    fn set_tilt(&mut self, tilt: Vector2<f64>);
+    /// Absorbs the tilt of the body beyond the plan.
+    fn set_tilt(&mut self, tilt: BodyTilt);
 
-    /// Growth of an error of the divergent component of motion until touchdown, `e^(ωt)`. `None` if the landing cannot
-    /// be adjusted: soon after the last adjustment, and for the last knots before a support change.
-    fn growth_until_touchdown(&self) -> Option<f64>;
+    /// Where and when the swing foot should land, if that is worth another plan. `None` also if the landing cannot be
+    /// adjusted: soon after the last adjustment, late in a half-step, and in a stand.
+    fn choose_step(&self, measured: &MeasuredBalance) -> Option<StepChoice>;
 
-    /// Adjusts the landing of the swing foot. Without effect while
-    /// [`growth_until_touchdown`](Self::growth_until_touchdown) is `None`, late in a half-step, and before a stand.
-    ///
-    /// * `error` – of the divergent component at touchdown that feedback cannot correct (m)
-    fn adjust_step(&mut self, error: Vector2<f64>);
+    /// Adjusts place and time of the landing of the swing foot.
+    fn adjust_step(&mut self, choice: StepChoice);
 }

@@ -2,13 +2,13 @@
 //! ticks, so that none of them takes long, and takes over at a coming knot.
 
 use interface::WalkPose;
-use nalgebra::Vector2;
 
 use crate::dynamics_filter::DynamicsFilter;
 use crate::foot_trajectory::FootTrajectory;
 use crate::gait_state::Goal;
 use crate::knot::KNOT;
 use crate::pattern_model::PatternModel;
+use crate::step_choice::StepChoice;
 
 /// A plan in the making.
 #[derive(Clone, Debug)]
@@ -27,8 +27,8 @@ pub(crate) struct IncrementalReplan {
 pub(crate) struct PlanChange {
     /// The gait to change to.
     pub goal: Option<Goal>,
-    /// Offset of the landing of the swing foot, in support coordinates (m).
-    pub step_offset: Option<Vector2<f64>>,
+    /// Where and when the swing foot lands.
+    pub step: Option<StepChoice>,
     /// Where the frame of the destination is, in the walk frame.
     pub course_frame: Option<WalkPose>,
 }
@@ -45,7 +45,7 @@ impl PlanChange {
         if let Some(frame) = self.course_frame {
             feet.footsteps.set_course_frame(frame);
         }
-        let is_adjusted = self.step_offset.is_some_and(|offset| feet.adjust_step(model, offset));
+        let is_adjusted = self.step.is_some_and(|step| feet.adjust_step(model, &step));
         is_adjusted || is_redirected || has_destination != had_destination || feet.footsteps.gait_state != before
     }
 }
@@ -76,7 +76,7 @@ impl IncrementalReplan {
     ) -> bool {
         self.change = PlanChange {
             goal: change.goal.or(self.change.goal),
-            step_offset: change.step_offset.or(self.change.step_offset),
+            step: change.step.or(self.change.step),
             course_frame: change.course_frame.or(self.change.course_frame),
         };
         self.foot_trajectory.clone_from(feet);
@@ -85,7 +85,7 @@ impl IncrementalReplan {
         for _ in 0..knots {
             if self.foot_trajectory.advance(model) {
                 // The foot has landed meanwhile.
-                self.change.step_offset = None;
+                self.change.step = None;
             }
             self.dynamics_filter.advance();
         }
@@ -93,7 +93,9 @@ impl IncrementalReplan {
             self.cancel();
             return false;
         }
-        self.dynamics_filter.restart(model, &self.foot_trajectory);
+        // After a push a leg may nearly be too short for a coming knot: then the ZMP jumps by metres.
+        let unexpected_max = self.change.step.map_or(f64::INFINITY, |_| model.proportions.unexpected_zmp_max);
+        self.dynamics_filter.restart(model, &self.foot_trajectory, unexpected_max);
         self.knots_left = knots;
         true
     }

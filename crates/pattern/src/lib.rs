@@ -8,7 +8,8 @@
 //!    `course`, `step_bounds` and `footstep_check` on the way to a destination).
 //! 3. `zmp_reference`: the reference of the zero-moment point (ZMP) over the coming 1.8 s.
 //! 4. `preview_controller`: the centre of mass of the cart-table model that tracks this reference.
-//! 5. `foot_trajectory`: swing sole, pelvis and hip height (`swing_path`, `step_adjustment`, `hip_height`).
+//! 5. `foot_trajectory`: swing sole, pelvis and hip height (`swing_path`, `step_adjustment`, `hip_height`). After a
+//!    push `step_choice` says where and when to land.
 //! 6. `whole_body_ik`: the joint angles that realise feet and centre of mass.
 //! 7. `dynamics_filter`: corrects the centre of mass by the dynamics of the whole body over the coming second.
 //! 8. `playback`: interpolates the planned knots.
@@ -56,6 +57,7 @@ mod speed_override;
 mod start_overload;
 mod step_adjustment;
 mod step_bounds;
+mod step_choice;
 mod step_geometry;
 mod stop_in_stride;
 mod swing_clearance;
@@ -67,6 +69,7 @@ mod whole_body_ik;
 mod zmp_reference;
 
 pub use feasibility::{Feasibility, FeasibilityCheck, FeasibilityParameters};
+pub use foot_trajectory::MeasuredBalance;
 pub use footstep_check::{FootstepFault, FootstepProblem};
 pub use gait_phase::GaitPhase;
 pub use gait_state::{GaitState, Goal, Stance};
@@ -74,6 +77,8 @@ pub use knot::KNOT;
 pub use limit::{Limit, LimitViolation};
 pub use pace::Pace;
 pub use pattern_generator::{Departure, PatternGenerator};
+pub use step_choice::StepChoice;
+pub use swing_clearance::BodyTilt;
 pub use uncompensated_gait::UncompensatedGait;
 pub use walk_velocity::VelocityMap;
 pub use weight_shift::WeightShift;

@@ -5,6 +5,8 @@ use dynamics::{Kinematics, Tree, zmp};
 use gait::NominalTable;
 use nalgebra::Vector2;
 
+use crate::knot::KNOT;
+
 /// Centre of mass and ground wrench of the nominal half-step, row by row.
 #[derive(Clone, Debug)]
 pub(crate) struct LipmResidual {
@@ -37,6 +39,13 @@ impl LipmResidual {
             dynamic: row.ground_dynamic,
         });
         Self { rows: rows.collect(), height_over_gravity: height / model::GRAVITY }
+    }
+
+    /// Growth of an error of the divergent component from knot to knot, `e^(ω·knot)` (-). It calls no mathematical
+    /// library of the system, which would round differently elsewhere.
+    pub(crate) fn growth_per_knot(&self) -> f64 {
+        let x = KNOT / self.height_over_gravity.sqrt();
+        1.0 + x * (1.0 + x / 2.0 * (1.0 + x / 3.0 * (1.0 + x / 4.0)))
     }
 
     /// `ZMP − (c − z/g·c̈)` at a progress and a speed factor, in support coordinates (m).

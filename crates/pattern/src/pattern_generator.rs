@@ -14,7 +14,7 @@ use model::{Joint, Mechanism, Motion};
 use nalgebra::Vector2;
 
 use crate::execution::Execution;
-use crate::foot_trajectory::FootTrajectory;
+use crate::foot_trajectory::{FootTrajectory, MeasuredBalance};
 use crate::footprint::Footprint;
 use crate::footstep_plan::FootstepPlan;
 use crate::gait::Gait;
@@ -27,10 +27,12 @@ use crate::pace::Pace;
 use crate::pattern_model::PatternModel;
 use crate::plan::Plan;
 use crate::playback::Playback;
+use crate::step_choice::StepChoice;
+use crate::swing_clearance::BodyTilt;
 use crate::whole_body_ik::WholeBodyIk;
 
 /// Each step adjustment is a new plan: not more often than once in so many knots.
-const KNOTS_BETWEEN_ADJUSTMENTS: u32 = 5;
+const KNOTS_BETWEEN_ADJUSTMENTS: u32 = 2;
 
 /// A walk whose centre of mass is planned over the coming footsteps. It takes the place of the plain [`Walk`].
 #[derive(Clone, Debug)]
@@ -119,7 +121,10 @@ impl PatternGenerator {
     pub fn override_speed(&mut self, request: &GaitChange) {
         let footsteps = self.plan.footsteps();
         let target = footsteps.walk.grant(request, footsteps.command()).granted.speed;
-        if footsteps.gait_state == GaitState::Walking && target != footsteps.walk.speed().target() {
+        if footsteps.gait_state == GaitState::Walking
+            && !footsteps.is_timed()
+            && target != footsteps.walk.speed().target()
+        {
             self.execution.playback.override_speed(footsteps.walk.speed(), target);
         }
     }
@@ -168,13 +173,6 @@ impl PatternGenerator {
     /// The present support foot.
     fn footprint(&self) -> &Footprint {
         &self.execution.playback.of_support(self.half_step().support).footprint
-    }
-
-    /// Knots until touchdown, if the landing can be adjusted.
-    fn knots_until_touchdown(&self) -> Option<f64> {
-        let is_same_half_step = self.walk().half_step().index == self.half_step().index;
-        let is_rested = self.execution.knots_since_adjustment >= KNOTS_BETWEEN_ADJUSTMENTS;
-        (is_same_half_step && is_rested).then(|| self.plan.knots_left())
     }
 
     /// Goes to the next knot, whatever the time until then: a speed that is not planned yet counts as none.
@@ -313,24 +311,25 @@ impl Gait for PatternGenerator {
         self.execution.slope.update(self.footprint().direction_to_walk(lean), dt);
     }
 
-    fn set_tilt(&mut self, tilt: Vector2<f64>) {
+    fn set_tilt(&mut self, tilt: BodyTilt) {
         // Just before a support change the newest knot has other support coordinates.
         if self.walk().half_step().index == self.half_step().index {
             self.execution.tilt = tilt;
         }
     }
 
-    fn growth_until_touchdown(&self) -> Option<f64> {
-        let knots = self.knots_until_touchdown()?;
-        Some((1.0 + KNOT / self.model.lipm_residual.height_over_gravity.sqrt()).powi(knots as i32))
+    fn choose_step(&self, measured: &MeasuredBalance) -> Option<StepChoice> {
+        let is_same_half_step = self.walk().half_step().index == self.half_step().index;
+        let is_rested = self.execution.knots_since_adjustment >= KNOTS_BETWEEN_ADJUSTMENTS;
+        if !is_same_half_step || !is_rested {
+            return None;
+        }
+        self.plan.choose_step(&self.model, measured, self.execution.playback.elapsed())
     }
 
-    fn adjust_step(&mut self, error: Vector2<f64>) {
-        let change = PlanChange { step_offset: Some(error), ..PlanChange::default() };
-        if self.knots_until_touchdown().is_some()
-            && self.plan.is_worth_adjusting(&self.model, error, self.execution.playback.elapsed())
-            && self.replan_soon(change)
-        {
+    fn adjust_step(&mut self, choice: StepChoice) {
+        let change = PlanChange { step: Some(choice), ..PlanChange::default() };
+        if self.replan_soon(change) {
             self.execution.knots_since_adjustment = 0;
         }
     }

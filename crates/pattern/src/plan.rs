@@ -8,16 +8,17 @@ use nalgebra::Vector2;
 
 use crate::course::Course;
 use crate::dynamics_filter::DynamicsFilter;
-use crate::foot_trajectory::FootTrajectory;
+use crate::foot_trajectory::{FootTrajectory, MeasuredBalance};
 use crate::footprint::Footprint;
 use crate::footstep_plan::FootstepPlan;
 use crate::gait_state::{GaitState, Goal};
 use crate::incremental_replan::{IncrementalReplan, PlanChange};
-use crate::knot::Knot;
+use crate::knot::{KNOT, Knot};
 use crate::pace::Pace;
 use crate::pattern_model::PatternModel;
 use crate::playback::Playback;
 use crate::preview_controller::CartState;
+use crate::step_choice::StepChoice;
 use crate::whole_body_ik::{WholeBodyIk, WholeBodyTask};
 
 /// The footsteps, the centre of mass over them and the posture, at the newest knot.
@@ -142,17 +143,18 @@ impl Plan {
         }
     }
 
-    /// Knots until the half-step at the newest knot ends, at its present speed.
-    pub(crate) fn knots_left(&self) -> f64 {
-        self.foot_trajectory.knots_left()
-    }
-
-    /// Whether another offset of the landing (m) is worth planning, and in time once it is planned.
+    /// Where and when the swing foot should land, if that is worth another plan, and in time once it is planned.
     ///
     /// * `elapsed` – time since the present knot (s)
-    pub(crate) fn is_worth_adjusting(&self, model: &PatternModel, offset: Vector2<f64>, elapsed: f64) -> bool {
+    pub(crate) fn choose_step(
+        &self,
+        model: &PatternModel,
+        measured: &MeasuredBalance,
+        elapsed: f64,
+    ) -> Option<StepChoice> {
         let knots = IncrementalReplan::knots_until_takeover(elapsed);
-        self.foot_trajectory.is_worth_adjusting(model, offset, knots)
+        let lead = (2.0 + f64::from(knots) - elapsed / KNOT).round() as u32;
+        self.foot_trajectory.choose_step(model, &self.landings, measured, [knots, lead])
     }
 
     /// Plans a change over the coming ticks. Returns whether there is anything to change.
@@ -246,6 +248,11 @@ impl Plan {
 
 #[cfg(test)]
 impl Plan {
+    /// Where the divergent component should be at the coming touchdown (m).
+    pub(crate) fn dcm_at_touchdown(&self, model: &PatternModel) -> Vector2<f64> {
+        self.foot_trajectory.dcm_at_touchdown(model, &self.landings)
+    }
+
     /// Whether the knots that were planned ahead stand on the footsteps that will be made.
     pub(crate) fn foresees_its_footsteps(&self, model: &PatternModel) -> bool {
         let mut ahead = self.footsteps().clone();

@@ -17,9 +17,7 @@ pub(crate) struct StepAdjustment {
 }
 
 /// Progress at which the sole has reached its place: before it touches down.
-const IN_PLACE: f64 = 0.95;
-/// Progress after which a target is final: later the foot would have to move too fast.
-const FINAL: f64 = 0.75;
+const IN_PLACE: f64 = 0.97;
 
 impl StepAdjustment {
     /// Offset of the landing from its planned place (m).
@@ -27,15 +25,13 @@ impl StepAdjustment {
         self.target
     }
 
-    /// Whether the target may still change at a progress.
-    pub(crate) fn is_in_time(progress: f64) -> bool {
-        progress <= FINAL
-    }
-
-    /// Changes the target, while [`is_in_time`](Self::is_in_time).
+    /// Changes the target. From [`IN_PLACE`] on the sole stays where it is.
     pub(crate) fn retarget(&mut self, progress: f64, target: Vector2<f64>) {
         let [value, rate, acceleration] = self.at(progress);
         let span = IN_PLACE - progress;
+        if span <= 0.0 {
+            return;
+        }
         self.coefficients = quintic_to_rest(value, rate * span, acceleration * (span * span), target);
         self.since = progress;
         self.target = target;
@@ -67,7 +63,6 @@ mod tests {
         let mut adjustment = StepAdjustment::default();
         for (progress, target) in [(0.2, Vector2::new(0.1, -0.03)), (0.55, Vector2::new(-0.02, 0.05))] {
             let before = adjustment.at(progress);
-            assert!(StepAdjustment::is_in_time(progress));
             adjustment.retarget(progress, target);
             let after = adjustment.at(progress);
             for (before, after) in before.iter().zip(after) {
@@ -76,7 +71,6 @@ mod tests {
             let [end, rate, acceleration] = adjustment.at(IN_PLACE - 1e-9);
             assert!((end - target).norm() < 1e-9 && rate.norm() < 1e-6 && acceleration.norm() < 1e-4);
         }
-        assert!(!StepAdjustment::is_in_time(0.8));
         assert_eq!(adjustment.at(1.0)[0], Vector2::new(-0.02, 0.05));
     }
 

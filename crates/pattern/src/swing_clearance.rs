@@ -6,6 +6,15 @@ use signal::CriticallyDamped;
 
 use crate::proportions::PatternProportions;
 
+/// How the body is tilted beyond the plan.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BodyTilt {
+    /// The rotation, about x and y of support coordinates (rad).
+    pub tilt: Vector2<f64>,
+    /// Whether the robot recovers from a push.
+    pub in_recovery: bool,
+}
+
 /// Additional height of the swing sole, so that it is where it was planned over the real floor: a critically damped
 /// lag.
 #[derive(Clone, Copy, Debug, Default)]
@@ -17,18 +26,23 @@ pub(crate) struct SwingClearance {
 impl SwingClearance {
     /// Advances by `dt` (s).
     ///
-    /// * `tilt` – of the body beyond the plan, about x and y of support coordinates (rad)
+    /// * `tilt` – of the body beyond the plan
     /// * `sole` – the swing sole, in support coordinates (m)
     pub(crate) fn advance(
         &mut self,
         proportions: &PatternProportions,
-        tilt: Vector2<f64>,
+        BodyTilt { tilt, in_recovery }: BodyTilt,
         sole: Vector2<f64>,
         dt: f64,
     ) {
         let lost = tilt.x * sole.y - tilt.y * sole.x;
         let max = proportions.swing_clearance_max;
-        self.height.advance((-lost).clamp(-max, max), proportions.swing_clearance_time_constant, dt);
+        let time_constant = if in_recovery {
+            proportions.swing_clearance_time_constant_in_recovery
+        } else {
+            proportions.swing_clearance_time_constant
+        };
+        self.height.advance((-lost).clamp(-max, max), time_constant, dt);
     }
 
     /// Expresses it over the other sole, which supports from now on.
@@ -59,7 +73,12 @@ mod tests {
         let (tilt, sole) = (Vector2::new(0.02, 0.03), Vector2::new(0.2, 0.19));
         let mut clearance = SwingClearance::default();
         for _ in 0..100 {
-            clearance.advance(&PatternProportions::of_built_in_robot(), tilt, sole, 0.01);
+            clearance.advance(
+                &PatternProportions::of_built_in_robot(),
+                BodyTilt { tilt, in_recovery: false },
+                sole,
+                0.01,
+            );
         }
         let rotated = Rotation3::new(tilt.push(0.0)) * Vector3::new(sole.x, sole.y, clearance.of_sole());
         assert!(rotated.z.abs() < 2e-4, "{}", rotated.z);
@@ -70,7 +89,7 @@ mod tests {
         let mut clearance = SwingClearance::default();
         clearance.advance(
             &PatternProportions::of_built_in_robot(),
-            Vector2::new(0.02, 0.03),
+            BodyTilt { tilt: Vector2::new(0.02, 0.03), in_recovery: false },
             Vector2::new(0.2, 0.19),
             0.01,
         );

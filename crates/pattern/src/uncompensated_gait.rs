@@ -12,7 +12,7 @@ use nalgebra::{Vector2, Vector3};
 use crate::footprint::{Footprint, SolePose};
 use crate::gait::Gait;
 use crate::stop_in_stride::StopInStride;
-use crate::{GaitPhase, Goal, Stance};
+use crate::{BodyTilt, GaitPhase, Goal, MeasuredBalance, Stance, StepChoice};
 
 /// A walk without a plan for the centre of mass.
 #[derive(Clone, Debug)]
@@ -129,11 +129,11 @@ impl Gait for UncompensatedGait {
 
     fn update_ground_slope(&mut self, _: Vector2<f64>, _: f64) {}
 
-    fn set_tilt(&mut self, _: Vector2<f64>) {}
+    fn set_tilt(&mut self, _: BodyTilt) {}
 
-    fn growth_until_touchdown(&self) -> Option<f64> {
+    fn choose_step(&self, _: &MeasuredBalance) -> Option<StepChoice> {
         None
     }
 
-    fn adjust_step(&mut self, _: Vector2<f64>) {}
+    fn adjust_step(&mut self, _: StepChoice) {}
 }

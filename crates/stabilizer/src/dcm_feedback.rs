@@ -15,7 +15,11 @@ const SUPPORT_ANKLE: [Joint; 2] = [Joint::RightAnkleRoll, Joint::RightAnklePitch
 const SWING_ANKLE: [Joint; 2] = [Joint::LeftAnkleRoll, Joint::LeftAnklePitch];
 
 /// Time constant of the DCM error for step adjustments (s): a step must not answer the glitch of a sensor.
-const ERROR_TIME_CONSTANT: f64 = 0.015;
+const ERROR_TIME_CONSTANT: f64 = 0.008;
+
+/// Time for which steps answer a push, counted from the last large error: between the steps of a recovery errors may be
+/// small for a moment (s).
+const RECOVERY: f64 = 1.0;
 
 /// Rotation of the body over the support ankle, about x and y (rad).
 pub type AnkleLean = Vector2<f64>;
@@ -51,6 +55,8 @@ pub struct DcmFeedback {
     swing_axes: [Vector3<f64>; 2],
     /// Filtered error of the divergent component that a step adjustment answers (m).
     step_error: LowPass<Vector2<f64>>,
+    /// Time for which steps still answer the last large error (s).
+    recovery_left: f64,
     /// ZMP shift of foot damping control (m).
     foot_damping: Vector2<f64>,
     /// Angles and rates of the offsets, in support coordinates.
@@ -71,6 +77,7 @@ impl DcmFeedback {
             support_axes: SUPPORT_ANKLE.map(axis),
             swing_axes: SWING_ANKLE.map(axis),
             step_error: LowPass::new(ERROR_TIME_CONSTANT, Vector2::zeros()),
+            recovery_left: 0.0,
             foot_damping: Vector2::zeros(),
             offsets: Motion::default(),
             lean: Vector2::zeros(),
@@ -111,6 +118,7 @@ impl DcmFeedback {
             self.lean = Vector2::new(shift.y, -shift.x) * self.lean_per_shift;
         }
         self.step_error.update(step_error, dt);
+        self.recovery_left = if self.is_error_large() { RECOVERY } else { (self.recovery_left - dt).max(0.0) };
         let lean = Vector3::new(self.lean.x, self.lean.y, 0.0);
         for (joint, axis) in SUPPORT_ANKLE.into_iter().zip(self.support_axes) {
             self.follow(joint, axis.dot(&lean), self.parameters.support_ankle_time_constant, dt);
@@ -167,28 +175,22 @@ impl DcmFeedback {
         (zmp - sole_centre).zip_map(&room, |zmp, room| zmp.min(room).max(-room)) + sole_centre
     }
 
-    /// How far the ZMP can move in the direction of an error (m) from where a walk has it: beside the ankle, in the
-    /// middle between the sole's sides. Its present place must not count, since a step that is planned anew moves that,
-    /// and would take back itself.
-    fn room_towards(&self, error: Vector2<f64>) -> Vector2<f64> {
-        let StabilizerProportions { sole_half_size, sole_centre, .. } = self.proportions;
-        let edge = sole_half_size - Vector2::repeat(self.parameters.edge);
-        let from_walk = Vector2::new(sole_centre.x, 0.0);
-        (edge + from_walk.component_mul(&error.map(f64::signum))).map(|room| room.max(0.0))
+    /// The filtered error of the divergent component, which a step answers, in support coordinates (m).
+    pub fn step_error(&self) -> Vector2<f64> {
+        self.step_error.value()
     }
 
-    /// The error of the divergent component at touchdown that neither this ankle nor the next one can correct, in
-    /// support coordinates (m). With the ZMP at the edge of the sole an error e grows to `room + (e − room)·growth`.
-    ///
-    /// * `growth` – `e^(ωt)` over the time until touchdown
-    pub fn uncorrectable_error(&self, growth: f64) -> Vector2<f64> {
-        let error = self.step_error.value();
-        let room = self.room_towards(error);
-        Vector2::from_fn(|axis, _| {
-            let (error, room) = (error[axis], room[axis]);
-            let left = room + (error.abs() - room) * growth - self.proportions.dcm_error_left_to_next_ankle[axis];
-            left.max(0.0) * error.signum()
-        })
+    /// Whether the robot recovers from a push, so that its steps answer it. Else the ankles suffice.
+    pub fn is_recovering(&self) -> bool {
+        self.recovery_left > 0.0
+    }
+
+    /// The ZMP farthest back and to the right, and farthest ahead and to the left, that the ankle can hold, in support
+    /// coordinates (m).
+    pub fn zmp_bounds(&self) -> [Vector2<f64>; 2] {
+        let StabilizerProportions { sole_half_size, sole_centre, .. } = self.proportions;
+        let edge = (sole_half_size - Vector2::repeat(self.parameters.edge)).map(|size| size.max(0.0));
+        [sole_centre - edge, sole_centre + edge]
     }
 
     /// Advances the offset of a joint as a critically damped lag.
@@ -243,35 +245,6 @@ mod tests {
     fn at(x: f64, y: f64) -> BalanceState {
         let com = ComState { position: Vector3::new(x, y, 0.9), velocity: Vector3::zeros() };
         BalanceState { com, tilt: Vector2::zeros(), zmp: None }
-    }
-
-    /// The oracle: ξ̇ = ω(ξ − p) of both the plan and the robot, integrated, with the ZMP at the edge of the sole.
-    #[test]
-    fn uncorrectable_error_is_that_of_a_pendulum_with_the_zmp_at_the_edge() {
-        let mut feedback = feedback();
-        for _ in 0..1000 {
-            feedback.update(&at(0.0, 0.0), Some(&at(-0.09, 0.05)), false, 1e-3);
-        }
-        let omega = at(0.0, 0.0).com.pendulum_rate();
-        // The heel is 7 cm behind, the edge 4 cm aside.
-        let zmp_shift = Vector2::new(-0.065, 0.035);
-        let mut error = Vector2::new(-0.09, 0.05);
-        for _ in 0..300_000 {
-            error += (error - zmp_shift) * (omega * 1e-6);
-        }
-        let found = feedback.uncorrectable_error((omega * 0.3).exp());
-        let left = feedback.proportions.dcm_error_left_to_next_ankle;
-        let expected = error - error.map(f64::signum).component_mul(&left);
-        assert!((found - expected).norm() < 1e-5, "{found} instead of {expected}");
-    }
-
-    #[test]
-    fn error_within_the_ankles_reach_needs_no_step_adjustment() {
-        let mut feedback = feedback();
-        for _ in 0..1000 {
-            feedback.update(&at(0.0, 0.0), Some(&at(0.15, -0.03)), false, 1e-3);
-        }
-        assert_eq!(feedback.uncorrectable_error(3.0), Vector2::zeros());
     }
 
     /// The body rotated by a small angle: the swing ankle rotates the foot back.

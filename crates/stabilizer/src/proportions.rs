@@ -17,8 +17,6 @@ pub(crate) struct StabilizerProportions {
     pub sole_centre: Vector2<f64>,
     /// Largest shift of the ZMP in double support (m).
     pub double_support_zmp_shift_max: f64,
-    /// Error of the divergent component at touchdown that calls for no step adjustment, ahead and aside (m).
-    pub dcm_error_left_to_next_ankle: Vector2<f64>,
     /// Error of the divergent component beyond what uneven ground causes (m).
     pub dcm_error_large: f64,
     /// Largest error of the divergent component that counts (m).
@@ -32,9 +30,6 @@ pub(crate) struct StabilizerProportions {
 /// A sixth of the distance of the feet: the ankles of both feet push, and the weight sways as the robot comes to rest
 /// (m).
 const DOUBLE_SUPPORT_ZMP_SHIFT_MAX: f64 = 0.03;
-/// Less than half of the room that the next support sole offers ahead, and most of it aside: the next ankle corrects
-/// this much (m).
-const DCM_ERROR_LEFT_TO_NEXT_ANKLE: Vector2<f64> = Vector2::new(0.05, 0.03);
 /// Errors on uneven ground stay below it; a push exceeds it (m).
 const DCM_ERROR_LARGE: f64 = 0.03;
 /// A third of the leg length: more is a glitch of a sensor, or no step can correct it (m).
@@ -54,7 +49,6 @@ impl StabilizerProportions {
             sole_half_size: sole.half_size(),
             sole_centre: sole.centre(Side::Right),
             double_support_zmp_shift_max: DOUBLE_SUPPORT_ZMP_SHIFT_MAX * scale,
-            dcm_error_left_to_next_ankle: DCM_ERROR_LEFT_TO_NEXT_ANKLE * scale,
             dcm_error_large: DCM_ERROR_LARGE * scale,
             dcm_error_max: DCM_ERROR_MAX * scale,
             foot_damping_zmp_shift_max: FOOT_DAMPING_ZMP_SHIFT_MAX * scale,

@@ -43,6 +43,12 @@ pub struct ContactEstimate {
 impl ContactEstimate {
     /// No foot touches the ground.
     pub const AIRBORNE: Self = Self { zmp: None, margin: f64::NEG_INFINITY, loads: [0.0; 2], in_contact: [false; 2] };
+
+    /// Share of the load on the swing foot (-); 0 in the air.
+    pub fn swing_share(&self) -> f64 {
+        let [support, swing] = [0, 1].map(|foot| if self.in_contact[foot] { self.loads[foot] } else { 0.0 });
+        if swing > 0.0 { swing / (support + swing) } else { 0.0 }
+    }
 }
 
 impl ZmpEstimator {

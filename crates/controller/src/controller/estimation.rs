@@ -26,7 +26,7 @@ impl Controller {
         // A robot that has fallen is moved by others.
         let followed = self.last_setpoint.filter(|_| self.state.plays_gait());
         let support = self.expected_support();
-        let expected = followed.as_ref().map(|setpoint| Expectation { setpoint, support });
+        let expected = followed.as_ref().map(|setpoint| Expectation { setpoint, yielding: &self.yielding, support });
         let valid = self.validator.update(measurement, expected.as_ref(), dt, faults);
         if self.validator.is_stale() && self.state.latched().is_none() {
             self.latch(Fault::MeasurementStale);
@@ -64,7 +64,7 @@ impl Controller {
             gait.update_ground_slope(measured.up_over_sole(&self.kinematics).xy(), dt);
         }
         self.tilt = self.reference.tilt(&measured.up_in_trunk, gait.sensed_vertical());
-        let com = estimate_com(&self.tree, &self.kinematics, &measured);
+        let com = estimate_com(&self.tree, &self.kinematics, &measured, &self.contact);
         self.com_prediction.absorb(&com, &self.reference.com, dt);
         Some(com)
     }

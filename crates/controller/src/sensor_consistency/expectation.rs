@@ -1,13 +1,15 @@
 //! What is expected of a measurement.
 
 use interface::Setpoint;
-use model::Side;
+use model::{JointVector, Side};
 
 /// What is commanded, and so expected of a measurement.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expectation<'a> {
     /// The last setpoint.
     pub setpoint: &'a Setpoint,
+    /// The part of its angles by which feedback leans on the ground (rad): the drives yield by up to that.
+    pub yielding: &'a JointVector,
     /// What carries the robot; `None` where anything may, as in a stand.
     pub support: Option<ExpectedSupport>,
 }

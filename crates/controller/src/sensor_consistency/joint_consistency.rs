@@ -1,8 +1,9 @@
 //! Joint angles against their setpoints and against their rates.
 
-use interface::{Fault, Measurement, Rejection, Sensor, Setpoint};
+use interface::{Fault, Measurement, Rejection, Sensor};
 use model::{Joint, JointVector};
 
+use super::expectation::Expectation;
 use super::parameters::ConsistencyParameters;
 
 /// Time over which the mean tracking error is formed (s): pushes and impacts are shorter.
@@ -28,11 +29,15 @@ impl JointConsistency {
         &mut self,
         sample: &Measurement,
         last: &Measurement,
-        setpoint: &Setpoint,
+        expected: &Expectation,
         parameters: &ConsistencyParameters,
         dt: f64,
     ) -> Option<Rejection> {
-        let errors = sample.angles - setpoint.angles;
+        let errors = JointVector::from_fn(|joint| {
+            let (angle, setpoint) = (sample.angles[joint], expected.setpoint.angles[joint]);
+            let unyielding = setpoint - expected.yielding[joint];
+            angle - angle.clamp(setpoint.min(unyielding), setpoint.max(unyielding))
+        });
         let rate_errors = self.rate_errors(sample, last, dt);
         let mut rejection = None;
         // The first two joints are those of the foot on the ground, which nothing measures.
@@ -73,6 +78,8 @@ impl JointConsistency {
 
 #[cfg(test)]
 mod tests {
+    use interface::Setpoint;
+
     use super::*;
 
     const PARAMETERS: ConsistencyParameters = ConsistencyParameters {
@@ -101,6 +108,10 @@ mod tests {
         (setpoint, sample)
     }
 
+    fn expectation(setpoint: &Setpoint) -> Expectation<'_> {
+        Expectation { setpoint, yielding: &JointVector::ZERO, support: None }
+    }
+
     /// What is found of a swing with wrong values from 1 s on, and when (s after it).
     fn found(wrong: impl Fn(&mut Measurement)) -> Option<(f64, Rejection)> {
         let mut joints = JointConsistency::default();
@@ -111,7 +122,7 @@ mod tests {
             if time >= 1.0 {
                 wrong(&mut sample);
             }
-            if let Some(rejection) = joints.update(&sample, &last, &setpoint, &PARAMETERS, 1e-3) {
+            if let Some(rejection) = joints.update(&sample, &last, &expectation(&setpoint), &PARAMETERS, 1e-3) {
                 return Some((time - 1.0, rejection));
             }
             last = sample;
@@ -122,6 +133,24 @@ mod tests {
     #[test]
     fn a_swing_that_is_followed_is_consistent() {
         assert_eq!(found(|_| {}), None);
+    }
+
+    /// A foot on its toes for half a second: the ankle, whose drive yields, stays where the sole holds it.
+    #[test]
+    fn a_drive_that_yields_where_feedback_leans_is_consistent() {
+        let leans = JointVector::unit(Joint::RightAnklePitch) * 0.04;
+        let setpoint = Setpoint { angles: leans, rates: JointVector::ZERO, feed_forward: JointVector::ZERO };
+        let found = |angle: f64| {
+            let mut joints = JointConsistency::default();
+            let mut sample = Measurement { rates: JointVector::ZERO, ..swinging(0.0).1 };
+            sample.angles[Joint::RightAnklePitch] = angle;
+            let expected = Expectation { setpoint: &setpoint, yielding: &leans, support: None };
+            (0..500).find_map(|_| joints.update(&sample, &sample, &expected, &PARAMETERS, 1e-3))
+        };
+        assert_eq!(found(0.0), None);
+        assert_eq!(found(0.04), None);
+        let beyond = found(-0.03).unwrap();
+        assert_eq!(beyond.sensor, Sensor::JointAngle(Joint::RightAnklePitch));
     }
 
     #[test]
@@ -152,7 +181,7 @@ mod tests {
         let named = (0..3000).find_map(|tick| {
             let (setpoint, mut sample) = swinging(f64::from(tick) * 1e-3);
             sample.angles[Joint::LeftKnee] += off(tick);
-            let rejection = joints.update(&sample, &last, &setpoint, &PARAMETERS, 1e-3);
+            let rejection = joints.update(&sample, &last, &expectation(&setpoint), &PARAMETERS, 1e-3);
             last = sample;
             rejection.map(|rejection| (off(tick), rejection.sensor))
         });

@@ -82,3 +82,70 @@ fn what_is_planned_ahead_stands_on_the_footsteps_that_are_made() {
         }
     }
 }
+
+/// The oracle: the centre of mass of a steady walk of any kind, as it is played.
+#[test]
+fn the_divergent_component_wanted_at_touchdown_is_that_of_the_steady_walk() {
+    for (ahead, left, turn) in [(0.4, 0.0, 0.0), (0.2, 0.08, 0.0), (-0.2, 0.0, 0.0), (0.3, 0.0, 0.5), (0.0, 0.0, 0.0)] {
+        let mut generator = walking();
+        let command = generator.command_at(&WalkVelocity { ahead, left, turn });
+        generator.admit(&command.into());
+        advance(&mut generator, 6000);
+        while generator.half_step().progress < 0.7 {
+            advance(&mut generator, 1);
+        }
+        let wanted = generator.plan.dcm_at_touchdown(&generator.model);
+        let index = generator.half_step().index;
+        let mut last = Vector2::zeros();
+        while generator.half_step().index == index {
+            let motion = generator.motion();
+            let kinematics = dynamics::Kinematics::fixed_base(generator.tree(), &motion.angles);
+            last = kinematics.com_state(generator.tree(), &motion.rates).divergent_component();
+            advance(&mut generator, 1);
+        }
+        assert!((last - wanted).amax() < 0.02, "{ahead} {left} {turn}: {wanted} instead of {last}");
+    }
+}
+
+/// The plan takes the choice over within two knots, and it is played two knots later.
+#[test]
+fn a_chosen_step_lands_where_and_when_it_was_chosen_and_the_next_one_as_planned() {
+    let mut generator = walking();
+    advance(&mut generator, 2650);
+    let before = generator.half_step();
+    assert!((0.3..0.5).contains(&before.progress));
+    let planned = generator.landings()[0];
+    let offset = Vector2::new(-0.06, 0.04);
+    generator.adjust_step(StepChoice { offset, knots: Some(15) });
+    let mut ticks = 0;
+    while generator.half_step().index == before.index {
+        advance(&mut generator, 1);
+        ticks += 1;
+        if generator.half_step().index == before.index && ticks > 40 {
+            let landing = generator.landings()[0];
+            let lateral = before.support.lateral_sign();
+            assert!((landing.x - planned.x - offset.x).abs() < 1e-9, "{landing:?}");
+            assert!((landing.y - planned.y - lateral * offset.y).abs() < 1e-9, "{landing:?}");
+        }
+    }
+    assert!((170..200).contains(&ticks), "touchdown after {ticks} ms");
+    advance(&mut generator, 2000);
+    assert_eq!(generator.speed(), 1.0, "the speed returns");
+}
+
+#[test]
+fn a_stop_that_is_pushed_still_ends_with_the_feet_side_by_side() {
+    let mut generator = walking();
+    advance(&mut generator, 2400);
+    generator.set_goal(Goal::Stand(Stance::Parallel));
+    while !matches!(generator.gait_state(), GaitState::Stopping { half_steps: 1, .. }) {
+        advance(&mut generator, 1);
+    }
+    advance(&mut generator, 200);
+    generator.adjust_step(StepChoice { offset: Vector2::new(0.08, 0.03), knots: None });
+    advance(&mut generator, 4000);
+    assert_eq!(generator.gait_state(), GaitState::Standing(Stance::Parallel));
+    let kinematics = dynamics::Kinematics::fixed_base(generator.tree(), &generator.motion().angles);
+    let other = kinematics.sole_to_world(&generator.model.mechanism, model::Side::Left).translation.vector;
+    assert!(other.x.abs() < 1e-3, "{other}");
+}
