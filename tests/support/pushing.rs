@@ -1,6 +1,6 @@
 //! Pushes at a chosen place of the half-step, told from the robot itself.
 
-use interface::{GaitChange, Intent, Mode};
+use interface::{GaitChange, Intent};
 use model::Side;
 use nalgebra::{Vector2, Vector3};
 
@@ -86,10 +86,29 @@ impl Direction {
     }
 }
 
+/// Steps in place at a progress of a half-step, long after their beginning; `None` if the robot falls before.
+pub fn step_in_place_to(seed: u64, half_step: u64, progress: f64) -> Option<Walking> {
+    let mut walking = Walking::begin(seed);
+    walking.ask(GaitChange::NONE, Some(Intent::InPlace));
+    walk_on_to(walking, half_step, progress)
+}
+
+/// A robot that stands.
+pub fn stand(seed: u64) -> Walking {
+    let mut walking = Walking::stand(seed);
+    walking.walk(1.0);
+    walking
+}
+
 /// The walk by `request` at a progress of a half-step, long after its beginning; `None` if it falls before.
 pub fn walk_to(seed: u64, request: GaitChange, half_step: u64, progress: f64) -> Option<Walking> {
     let mut walking = Walking::begin(seed);
-    let report = walking.ask(request, Some(Intent::Walk));
+    walking.ask(request, Some(Intent::Walk));
+    walk_on_to(walking, half_step, progress)
+}
+
+fn walk_on_to(mut walking: Walking, half_step: u64, progress: f64) -> Option<Walking> {
+    let report = walking.tick(None);
     // The slowest half-step takes about as many seconds as its inverse speed.
     let patience = 2.0 * half_step as f64 / report.command.speed;
     let there = |half_step_now: u64, progress_now: f64| {
@@ -101,12 +120,14 @@ pub fn walk_to(seed: u64, request: GaitChange, half_step: u64, progress: f64) ->
     Some(walking)
 }
 
-/// Whether a copy of `walking`, pushed now by an impulse of so many N·s, still walks [`WALKS_ON`] seconds later.
+/// Whether a copy of `walking`, pushed now by an impulse of so many N·s, still does what it did [`WALKS_ON`] seconds
+/// later.
 pub fn survives(walking: &Walking, direction: Direction, impulse: f64) -> bool {
     let mut pushed = walking.clone();
-    let support = pushed.tick(None).report.half_step.support;
+    let report = pushed.tick(None).report;
+    let (mode, support) = (report.mode, report.half_step.support);
     let push = direction.in_world(&pushed, support) * impulse;
     pushed.plant.push(push, PUSH_DURATION);
     let fallen = pushed.walk(WALKS_ON).has_fallen();
-    !fallen && pushed.tick(None).report.mode == Mode::Walking
+    !fallen && pushed.tick(None).report.mode == mode
 }

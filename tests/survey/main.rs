@@ -24,6 +24,8 @@ mod kill;
 mod margins;
 #[cfg(feature = "mujoco")]
 mod mujoco;
+#[cfg(feature = "mujoco")]
+mod mujoco_pushes;
 mod needs;
 mod playback;
 mod pushes;
@@ -88,6 +90,9 @@ enum Survey {
     /// What is granted, walked in MuJoCo
     #[cfg(feature = "mujoco")]
     Mujoco(mujoco::Options),
+    /// The largest push survived in MuJoCo
+    #[cfg(feature = "mujoco")]
+    MujocoPushes(mujoco_pushes::Options),
     /// Random velocities in every direction: no fall, and what is granted is walked
     #[cfg(feature = "mujoco")]
     Velocities(velocities::Options),
@@ -123,6 +128,8 @@ fn main() -> ExitCode {
         Survey::Directions(options) => directions::survey(options),
         #[cfg(feature = "mujoco")]
         Survey::Mujoco(options) => mujoco::survey(options),
+        #[cfg(feature = "mujoco")]
+        Survey::MujocoPushes(options) => mujoco_pushes::survey(options),
         #[cfg(feature = "mujoco")]
         Survey::Velocities(options) => velocities::survey(options),
         #[cfg(feature = "mujoco")]

@@ -15,6 +15,9 @@ pub(crate) struct Options {
     /// How long each walk
     #[arg(long, default_value_t = 40.0)]
     seconds: f64,
+    /// A harder world: nine walks on each of much worse floors, with worse sensors and loads
+    #[arg(long)]
+    hard: bool,
     /// Robots whose masses are wrong, each in its own way
     #[arg(long, default_value_t = 4)]
     seeds: u64,
@@ -32,6 +35,18 @@ const COMMANDS: [(f64, f64); 9] = [
     (1.3, 0.0),
     (1.3, 15.0),
 ];
+/// The same in a harder world.
+const COMMANDS_IN_HARD_WORLD: [(f64, f64); 9] = [
+    (0.8, -15.0),
+    (0.8, 0.0),
+    (0.8, 15.0),
+    (1.0, -15.0),
+    (1.0, 0.0),
+    (1.0, 15.0),
+    (1.2, -15.0),
+    (1.2, 0.0),
+    (1.2, 15.0),
+];
 /// When the walk leaves the nominal (s).
 const ENTRY: f64 = 2.0;
 
@@ -44,11 +59,14 @@ struct Variation {
 
 pub(crate) fn survey(options: &Options) -> bool {
     let (mechanism, controller) = (mechanism(), controller_parameters());
-    let variations = variations(options.seeds);
-    let walks = on_all_cores(variations.len() * COMMANDS.len(), |index| {
-        let Variation { parameters, seed, .. } = &variations[index / COMMANDS.len()];
-        let (speed, turn) = COMMANDS[index % COMMANDS.len()];
-        let mut watched = Watched::new(Walking::begin_with(&mechanism, &controller, parameters, *seed));
+    let (variations, commands) =
+        if options.hard { (hard_variations(), COMMANDS_IN_HARD_WORLD) } else { (variations(options.seeds), COMMANDS) };
+    let walks = on_all_cores(variations.len() * commands.len(), |index| {
+        let Variation { parameters, seed, .. } = &variations[index / commands.len()];
+        let (speed, turn) = commands[index % commands.len()];
+        // In a harder world each walk has its own noise and its own floor.
+        let seed = if options.hard { (index % commands.len()) as u64 } else { *seed };
+        let mut watched = Watched::new(Walking::begin_with(&mechanism, &controller, parameters, seed));
         watched.walk_until(ENTRY);
         watched.begin_anew();
         watched.tick(Some(&asked::request(speed, turn, 0.0)));
@@ -56,7 +74,7 @@ pub(crate) fn survey(options: &Options) -> bool {
         watched
     });
 
-    let rows: Vec<Vec<String>> = std::iter::zip(&variations, walks.chunks(COMMANDS.len()))
+    let rows: Vec<Vec<String>> = std::iter::zip(&variations, walks.chunks(commands.len()))
         .map(|(variation, walks)| {
             let falls = walks.iter().filter(|watched| watched.fall.is_some()).count();
             let least = walks.iter().map(|watched| watched.least_margin).fold(f64::INFINITY, f64::min);
@@ -74,38 +92,64 @@ pub(crate) fn survey(options: &Options) -> bool {
     for (index, watched) in walks.iter().enumerate() {
         if let Some(fall) = &watched.fall {
             passed = false;
-            println!("{}: {fall}", variations[index / COMMANDS.len()].name);
+            println!("{}: {fall}", variations[index / commands.len()].name);
         }
     }
     passed
 }
 
+fn vary(name: &str, change: impl Fn(&mut PlantParameters)) -> Variation {
+    let mut parameters = plant_parameters();
+    change(&mut parameters);
+    Variation { name: name.to_owned(), parameters, seed: 0 }
+}
+
+fn slope(ahead: f64, left: f64) -> impl Fn(&mut PlantParameters) {
+    let slope = Slope { ahead: ahead.to_radians(), left: left.to_radians() };
+    move |parameters: &mut PlantParameters| parameters.slope = slope
+}
+
+fn tiles(height: f64) -> impl Fn(&mut PlantParameters) {
+    move |parameters: &mut PlantParameters| parameters.unevenness.height = height
+}
+
+/// What a robot should walk on and with one day.
+fn hard_variations() -> Vec<Variation> {
+    let behind = Vector3::new(-0.15, 0.0, 0.28);
+    let mut variations: Vec<Variation> =
+        [2.0, 4.0, 6.0, 8.0, 10.0, 15.0].map(|height| vary(&format!("tiles {height} mm"), tiles(height * 1e-3))).into();
+    for degrees in [4.0, 6.0, 8.0] {
+        variations.extend([
+            vary(&format!("slope {degrees}° up ahead"), slope(degrees, 0.0)),
+            vary(&format!("slope {degrees}° down ahead"), slope(-degrees, 0.0)),
+            vary(&format!("slope {degrees}° up to the left"), slope(0.0, degrees)),
+        ]);
+    }
+    variations.extend([
+        vary("friction 0.4", |parameters| parameters.contact.friction = 0.4),
+        vary("sensor delay 5 ms", |parameters| parameters.sensors.delay_periods = 5),
+        vary("payload 10 kg behind", |parameters| parameters.payload = Payload { mass: 10.0, at: behind }),
+        vary("masses ±10 %", |parameters| parameters.mass_error = 0.1),
+    ]);
+    variations
+}
+
 fn variations(seeds: u64) -> Vec<Variation> {
-    let vary = |name: &str, change: &dyn Fn(&mut PlantParameters)| {
-        let mut parameters = plant_parameters();
-        change(&mut parameters);
-        Variation { name: name.to_owned(), parameters, seed: 0 }
-    };
     let payload = |place: Vector3<f64>| {
         move |parameters: &mut PlantParameters| parameters.payload = Payload { mass: 5.0, at: place }
     };
-    let slope = |ahead: f64, left: f64| {
-        let slope = Slope { ahead: ahead.to_radians(), left: left.to_radians() };
-        move |parameters: &mut PlantParameters| parameters.slope = slope
-    };
-    let tiles = |height: f64| move |parameters: &mut PlantParameters| parameters.unevenness.height = height;
     let mut variations = vec![
-        vary("nothing", &|_| {}),
-        vary("friction 0.5", &|parameters| parameters.contact.friction = 0.5),
-        vary("payload 5 kg high", &payload(Vector3::new(0.0, 0.0, 0.5))),
-        vary("payload 5 kg behind", &payload(Vector3::new(-0.15, 0.0, 0.28))),
-        vary("payload 5 kg to the left", &payload(Vector3::new(0.0, 0.15, 0.28))),
-        vary("slope 2° up ahead", &slope(2.0, 0.0)),
-        vary("slope 2° down ahead", &slope(-2.0, 0.0)),
-        vary("slope 2° up to the left", &slope(0.0, 2.0)),
-        vary("slope 2° up to the right", &slope(0.0, -2.0)),
-        vary("tiles 2 mm", &tiles(0.002)),
-        vary("sensor delay 3 ms", &|parameters| parameters.sensors.delay_periods = 3),
+        vary("nothing", |_| {}),
+        vary("friction 0.5", |parameters| parameters.contact.friction = 0.5),
+        vary("payload 5 kg high", payload(Vector3::new(0.0, 0.0, 0.5))),
+        vary("payload 5 kg behind", payload(Vector3::new(-0.15, 0.0, 0.28))),
+        vary("payload 5 kg to the left", payload(Vector3::new(0.0, 0.15, 0.28))),
+        vary("slope 2° up ahead", slope(2.0, 0.0)),
+        vary("slope 2° down ahead", slope(-2.0, 0.0)),
+        vary("slope 2° up to the left", slope(0.0, 2.0)),
+        vary("slope 2° up to the right", slope(0.0, -2.0)),
+        vary("tiles 2 mm", tiles(0.002)),
+        vary("sensor delay 3 ms", |parameters| parameters.sensors.delay_periods = 3),
     ];
     variations.extend((0..seeds).map(|seed| Variation {
         name: format!("masses ±5 %, seed {seed}"),

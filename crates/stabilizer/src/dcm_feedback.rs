@@ -118,7 +118,8 @@ impl DcmFeedback {
             self.lean = Vector2::new(shift.y, -shift.x) * self.lean_per_shift;
         }
         self.step_error.update(step_error, dt);
-        self.recovery_left = if self.is_error_large() { RECOVERY } else { (self.recovery_left - dt).max(0.0) };
+        let is_push = self.step_error.value().amax() > self.proportions.dcm_error_of_push;
+        self.recovery_left = if is_push { RECOVERY } else { (self.recovery_left - dt).max(0.0) };
         let lean = Vector3::new(self.lean.x, self.lean.y, 0.0);
         for (joint, axis) in SUPPORT_ANKLE.into_iter().zip(self.support_axes) {
             self.follow(joint, axis.dot(&lean), self.parameters.support_ankle_time_constant, dt);

@@ -17,6 +17,8 @@ pub(crate) struct StabilizerProportions {
     pub sole_centre: Vector2<f64>,
     /// Largest shift of the ZMP in double support (m).
     pub double_support_zmp_shift_max: f64,
+    /// Error of the divergent component that steps answer (m).
+    pub dcm_error_of_push: f64,
     /// Error of the divergent component beyond what uneven ground causes (m).
     pub dcm_error_large: f64,
     /// Largest error of the divergent component that counts (m).
@@ -30,8 +32,10 @@ pub(crate) struct StabilizerProportions {
 /// A sixth of the distance of the feet: the ankles of both feet push, and the weight sways as the robot comes to rest
 /// (m).
 const DOUBLE_SUPPORT_ZMP_SHIFT_MAX: f64 = 0.03;
-/// Errors on uneven ground stay below it; a push exceeds it (m).
-const DCM_ERROR_LARGE: f64 = 0.03;
+/// Most of the room that the sole offers aside (m).
+const DCM_ERROR_OF_PUSH: f64 = 0.03;
+/// Errors on tiles of ±4 mm stay below it; a strong push exceeds it (m).
+const DCM_ERROR_LARGE: f64 = 0.06;
 /// A third of the leg length: more is a glitch of a sensor, or no step can correct it (m).
 const DCM_ERROR_MAX: f64 = 0.3;
 /// Far outside the sole: with the stiffness of the ankle a tilt of the sole by 5° shifts the ZMP by as much (m).
@@ -49,6 +53,7 @@ impl StabilizerProportions {
             sole_half_size: sole.half_size(),
             sole_centre: sole.centre(Side::Right),
             double_support_zmp_shift_max: DOUBLE_SUPPORT_ZMP_SHIFT_MAX * scale,
+            dcm_error_of_push: DCM_ERROR_OF_PUSH * scale,
             dcm_error_large: DCM_ERROR_LARGE * scale,
             dcm_error_max: DCM_ERROR_MAX * scale,
             foot_damping_zmp_shift_max: FOOT_DAMPING_ZMP_SHIFT_MAX * scale,
