@@ -253,6 +253,11 @@ impl Plan {
         self.foot_trajectory.dcm_at_touchdown(model, &self.landings)
     }
 
+    /// Stops the walk where it is, within a knot.
+    pub(crate) fn hold_speed(&mut self) {
+        self.foot_trajectory.footsteps.walk.change_speed_within(0.0, KNOT);
+    }
+
     /// Whether the knots that were planned ahead stand on the footsteps that will be made.
     pub(crate) fn foresees_its_footsteps(&self, model: &PatternModel) -> bool {
         let mut ahead = self.footsteps().clone();

@@ -25,13 +25,15 @@ impl StepAdjustment {
         self.target
     }
 
-    /// Changes the target. From [`IN_PLACE`] on the sole stays where it is.
+    /// Whether the target may still change at a progress.
+    pub(crate) fn is_in_time(progress: f64) -> bool {
+        progress < IN_PLACE
+    }
+
+    /// Changes the target, while [`is_in_time`](Self::is_in_time).
     pub(crate) fn retarget(&mut self, progress: f64, target: Vector2<f64>) {
         let [value, rate, acceleration] = self.at(progress);
         let span = IN_PLACE - progress;
-        if span <= 0.0 {
-            return;
-        }
         self.coefficients = quintic_to_rest(value, rate * span, acceleration * (span * span), target);
         self.since = progress;
         self.target = target;

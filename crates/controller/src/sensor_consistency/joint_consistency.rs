@@ -36,7 +36,7 @@ impl JointConsistency {
         let errors = JointVector::from_fn(|joint| {
             let (angle, setpoint) = (sample.angles[joint], expected.setpoint.angles[joint]);
             let unyielding = setpoint - expected.yielding[joint];
-            angle - angle.clamp(setpoint.min(unyielding), setpoint.max(unyielding))
+            angle - angle.max(setpoint.min(unyielding)).min(setpoint.max(unyielding))
         });
         let rate_errors = self.rate_errors(sample, last, dt);
         let mut rejection = None;

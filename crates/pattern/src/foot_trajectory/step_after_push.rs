@@ -11,6 +11,7 @@ use crate::gait_state::{GaitState, Goal, Stance};
 use crate::knot::KNOT;
 use crate::pattern_model::PatternModel;
 use crate::proportions::PatternProportions;
+use crate::step_adjustment::StepAdjustment;
 use crate::step_choice::{StepChoice, StepProblem};
 
 /// What a measurement shows of the balance of the robot, in support coordinates.
@@ -24,6 +25,8 @@ pub struct MeasuredBalance {
 
 /// Fewest knots until touchdown in which a step can still be changed.
 const KNOTS_MIN: u32 = 5;
+/// Latest touchdown that is considered (knots): a walk that is held at its beginning has none.
+const KNOTS_MAX: f64 = 300.0;
 /// Change of the touchdown that is worth another plan (knots).
 const KNOTS_WORTH: u32 = 2;
 /// Largest speed factor at which a half-step ends early, and how much faster than before that is at most.
@@ -49,12 +52,12 @@ impl FootTrajectory {
         let walk = &self.footsteps.walk;
         let speed = walk.speed().state().value;
         let nominal = walk.table().duration / KNOT;
-        let planned = (1.0 - walk.half_step().progress) * nominal / speed - f64::from(knots);
+        // At nominal speed.
+        let left = (1.0 - walk.half_step().progress) * nominal - f64::from(knots) * speed;
+        let planned = (left / speed).min(KNOTS_MAX);
         if self.footsteps.gait_state.is_standing() || planned < f64::from(KNOTS_MIN) {
             return None;
         }
-        // At nominal speed.
-        let left = planned * speed;
         let fastest = (speed + SPEED_UP_MAX).min(SPEED_MAX);
         let proportions = &model.proportions;
         let planned = planned.round() as u32;
@@ -68,7 +71,7 @@ impl FootTrajectory {
             planned,
             knots: [
                 ((left / fastest).ceil() as u32).clamp(KNOTS_MIN, planned),
-                ((left / self.footsteps.planned_speed()) as u32).max(planned),
+                ((left / self.footsteps.planned_speed()).min(KNOTS_MAX) as u32).max(planned),
             ],
             offset: self.adjustment.target(),
             offset_bounds: self.offset_bounds(model),
@@ -83,9 +86,10 @@ impl FootTrajectory {
     }
 
     /// Lets the swing foot land as chosen, as far as feet and legs allow. Returns whether that changed anything: in a
-    /// stand nothing changes.
+    /// stand, and once the sole is over its place, nothing changes.
     pub(crate) fn adjust_step(&mut self, model: &PatternModel, step: &StepChoice) -> bool {
-        if self.footsteps.gait_state.is_standing() {
+        let progress = self.footsteps.walk.half_step().progress;
+        if self.footsteps.gait_state.is_standing() || !StepAdjustment::is_in_time(progress) {
             return false;
         }
         let [least, most] = self.offset_bounds(model);
@@ -96,7 +100,7 @@ impl FootTrajectory {
         if let Some(knots) = step.knots {
             self.footsteps.end_half_step_in(f64::from(knots) * KNOT);
         }
-        self.adjustment.retarget(self.footsteps.walk.half_step().progress, offset);
+        self.adjustment.retarget(progress, offset);
         if let GaitState::Stopping { half_steps: 1, stance, goal } = &mut self.footsteps.gait_state
             && *stance == Stance::Parallel
         {

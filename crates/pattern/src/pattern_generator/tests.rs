@@ -149,3 +149,17 @@ fn a_stop_that_is_pushed_still_ends_with_the_feet_side_by_side() {
     let other = kinematics.sole_to_world(&generator.model.mechanism, model::Side::Left).translation.vector;
     assert!(other.x.abs() < 1e-3, "{other}");
 }
+
+/// At speed 0 a half-step never ends: the choice must end all the same.
+#[test]
+fn a_step_is_chosen_in_a_walk_that_is_held_at_its_beginning() {
+    let mut generator = walking();
+    generator.plan.hold_speed();
+    advance(&mut generator, 500);
+    let measured = MeasuredBalance {
+        dcm: Vector2::new(0.3, 0.1),
+        zmp_bounds: [Vector2::new(-0.065, -0.035), Vector2::new(0.205, 0.035)],
+    };
+    let choice = generator.plan.choose_step(&generator.model, &measured, 0.0).expect("it is pushed hard");
+    assert!(choice.knots.is_some_and(|knots| knots < 300), "{choice:?}");
+}
