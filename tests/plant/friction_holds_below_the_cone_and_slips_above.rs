@@ -7,7 +7,7 @@ use halfstep_tests::mechanism;
 use halfstep_tests::walking::plant_parameters;
 use model::{Mechanism, Side};
 use nalgebra::{Matrix3, Vector3, Vector6};
-use plant::{ContactParameters, FootMotion, GroundContact};
+use plant::{ContactParameters, FootMotion, Ground, GroundContact};
 
 const STEP: f64 = 2.5e-4;
 
@@ -31,7 +31,7 @@ fn pulled(pull: f64, friction: f64) -> (f64, [f64; 2]) {
             origin: Vector3::zeros(),
             velocity: Vector6::new(0.0, 0.0, 0.0, velocity.x, velocity.y, velocity.z),
         };
-        let load = foot.forces_at_step_end(&motion, &position, |_| 0.0, &parameters, STEP);
+        let load = foot.forces_at_step_end(&motion, &position, &Ground::plane(friction), &parameters, STEP);
         let force = load.wrench.force + Vector3::new(pull * mass * gravity, 0.0, -mass * gravity);
         let inertia = Matrix3::from_diagonal_element(mass) + load.added_inertia.fixed_view::<3, 3>(3, 3);
         velocity += inertia.lu().solve(&force).expect("a mass can be moved") * STEP;

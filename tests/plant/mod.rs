@@ -8,5 +8,7 @@ mod friction_holds_below_the_cone_and_slips_above;
 mod held_joints_yield_to_gravity;
 mod sensor_faults_follow_the_script;
 mod smaller_steps_err_less;
+mod the_ground_carries_soles_by_its_shape;
+mod the_ground_is_made_of_its_parts;
 mod the_plant_may_differ_from_its_mechanism;
 mod the_plant_stands_still;

@@ -102,7 +102,8 @@ fn mujocos(mechanism: &Mechanism, walk: &Reference, starts: &[usize], steps: u32
 /// MuJoCo's robot in a state.
 fn setup(mechanism: &Mechanism, robot: &RobotState, steps: u32) -> EngineSetup {
     let parameters = plant::PlantParameters { steps_per_period: steps, ..plant_parameters() };
-    EngineSetup::new(mechanism, &parameters, &Disturbances::default(), robot, 0, PERIOD).expect("an even floor")
+    EngineSetup::new(mechanism, &parameters, &Disturbances::default(), robot, 0, PERIOD)
+        .expect("tiles that are not too small")
 }
 
 /// For each place what an engine is told, and the setpoints that follow: rows of angles, rates and torques.

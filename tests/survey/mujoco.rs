@@ -64,7 +64,8 @@ impl Outside {
     ) -> Self {
         let robot = RobotState::on_right_foot(start, 0.0);
         Self::take_over(
-            EngineSetup::new(mechanism, parameters, disturbances, &robot, seed, PERIOD).expect("an even floor"),
+            EngineSetup::new(mechanism, parameters, disturbances, &robot, seed, PERIOD)
+                .expect("tiles that are not too small"),
         )
     }
 

@@ -22,6 +22,7 @@ mod the_preview_keeps_the_zmp_in_the_sole;
 mod walks_by_every_extreme_of_what_is_granted;
 mod walks_in_every_direction;
 mod walks_on_after_pushes;
+mod walks_on_floors_with_shape;
 mod walks_on_slopes_and_with_payload;
 mod walks_on_soles_that_are_shifted;
 mod walks_on_uneven_ground;

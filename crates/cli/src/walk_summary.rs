@@ -28,6 +28,8 @@ pub(crate) struct WalkSummary {
     pub seed: u64,
     /// The physics engine: `rust` or `mujoco`.
     pub plant: &'static str,
+    /// What the floor is, in words: `a plane`, or the parts that make it other than that.
+    pub floor: String,
     /// Name of the instance.
     pub instance: String,
     /// The clock: `realtime` or `lockstep`.
@@ -90,6 +92,9 @@ impl fmt::Display for WalkSummary {
                 }
                 None => writeln!(out, " with its capture point over the soles")?,
             }
+        }
+        if self.floor != "a plane" {
+            writeln!(out, "the floor: {}", self.floor)?;
         }
         writeln!(out, "{}", self.requests)?;
         let Self { real_time_factor, deadline_misses, log_gaps, timing, .. } = self;

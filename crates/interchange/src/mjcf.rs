@@ -17,10 +17,11 @@
 //! sole does not creep.
 
 use model::{Body, Joint, Mechanism, Side};
-use nalgebra::{UnitQuaternion, Vector3};
-use plant::PlantParameters;
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use plant::{GroundPiece, PlantParameters};
 use quick_xml::escape::escape;
 
+use crate::floor_prism::FloorPrism;
 use crate::mjcf_bodies::MjcfBodies;
 use crate::side_name::side_name;
 use crate::urdf::equivalent_sides;
@@ -31,10 +32,26 @@ const CONTACT: &str = r#"solref="0.004 1" solimp="0.99 0.999 0.0005""#;
 /// Torsional and rolling friction, which three-dimensional contacts do not use but the format requires.
 const UNUSED_FRICTION: &str = "0.005 0.0001";
 
-/// Writes the mechanism and a floor as MJCF, with friction, slope, payload and integration step from `parameters`.
+/// How far a floor with shape reaches in a file, from where the walk begins (m).
+const FLOOR_REACH: f64 = 10.0;
+
+/// Writes the mechanism and a floor as MJCF, with friction, floor, payload and integration step from `parameters`. Of a
+/// floor with shape, which is that of seed 0, it has what is within 10 m of where the walk begins.
 ///
 /// `period` is the control period (s). The text is complete: MuJoCo loads it without other files.
 pub fn mjcf_text(mechanism: &Mechanism, parameters: &PlantParameters, period: f64) -> String {
+    let ground = parameters.ground(0);
+    let pieces = (!ground.is_plane()).then(|| ground.pieces(Vector2::zeros(), FLOOR_REACH));
+    mjcf_text_on(mechanism, parameters, pieces.as_deref(), period)
+}
+
+/// The same on these pieces of a floor, maybe none; on a plane for `None`.
+pub fn mjcf_text_on(
+    mechanism: &Mechanism,
+    parameters: &PlantParameters,
+    floor: Option<&[GroundPiece]>,
+    period: f64,
+) -> String {
     let mut out = XmlLines::default();
     let timestep = period / f64::from(parameters.steps_per_period);
     let friction = friction(parameters);
@@ -48,13 +65,24 @@ pub fn mjcf_text(mechanism: &Mechanism, parameters: &PlantParameters, period: f6
     out.close("option");
     out.line(r#"<statistic center="0 0 0.8" extent="2"/>"#);
     out.line(r#"<visual><global offwidth="1280" offheight="720"/><headlight ambient="0.4 0.4 0.4"/></visual>"#);
-    appearance(&mut out);
+    let prisms: Vec<FloorPrism> = floor.unwrap_or_default().iter().map(FloorPrism::of).collect();
+    appearance(&mut out, &prisms);
 
     out.open(r#"worldbody"#);
     out.line(r#"<light pos="0 0 4" dir="0 0 -1" directional="true"/>"#);
-    out.line(format_args!(
-        r#"<geom name="floor" type="plane" size="0 0 0.5" contype="1" conaffinity="0" condim="3" {friction} {CONTACT} material="floor" rgba="1 1 1 1"/>"#
-    ));
+    if floor.is_none() {
+        out.line(format_args!(
+            r#"<geom name="floor" type="plane" size="0 0 0.5" contype="1" conaffinity="0" condim="3" {friction} {CONTACT} material="floor" rgba="1 1 1 1"/>"#
+        ));
+    }
+    for (index, prism) in prisms.iter().enumerate() {
+        // By its priority the friction is the floor's, not the larger one of floor and sole.
+        out.line(format_args!(
+            r#"<geom name="floor_{index}" type="mesh" mesh="floor_{index}" pos="{}" contype="1" conaffinity="0" condim="3" priority="1" friction="{} {UNUSED_FRICTION}" {CONTACT} rgba="0.8 0.82 0.86 1"/>"#,
+            numbers(prism.at.as_slice()),
+            prism.friction
+        ));
+    }
     body(&mut out, &MjcfBodies::of(mechanism), mechanism, parameters, Mechanism::RIGHT_FOOT);
     out.close("worldbody");
 
@@ -78,8 +106,8 @@ fn friction(parameters: &PlantParameters) -> String {
     format!(r#"friction="{} {UNUSED_FRICTION}""#, parameters.contact.friction)
 }
 
-/// Textures and colours for viewers.
-fn appearance(out: &mut XmlLines) {
+/// Textures and colours for viewers, and the shapes of the floor.
+fn appearance(out: &mut XmlLines, floor: &[FloorPrism]) {
     out.open("asset");
     out.line(
         r#"<texture name="floor" type="2d" builtin="checker" rgb1="0.85 0.87 0.9" rgb2="0.75 0.78 0.82" width="200" height="200"/>"#,
@@ -88,6 +116,10 @@ fn appearance(out: &mut XmlLines) {
     out.line(
         r#"<texture type="skybox" builtin="gradient" rgb1="0.95 0.97 1" rgb2="0.7 0.8 0.9" width="64" height="64"/>"#,
     );
+    for (index, prism) in floor.iter().enumerate() {
+        let vertices: Vec<f64> = prism.vertices.iter().flat_map(|vertex| vertex.iter().copied()).collect();
+        out.line(format_args!(r#"<mesh name="floor_{index}" vertex="{}"/>"#, numbers(&vertices)));
+    }
     out.close("asset");
     out.open("default");
     out.line(r#"<geom contype="0" conaffinity="0" rgba="0.6 0.68 0.78 1"/>"#);
@@ -215,7 +247,7 @@ fn sensors(out: &mut XmlLines, mechanism: &Mechanism) {
     out.line(r#"<gyro name="imu_rate" site="imu"/>"#);
     for side in Side::BOTH.map(side_name) {
         out.line(format_args!(
-            r#"<contact name="{side}_ground" geom1="floor" geom2="{side}_foot" data="force torque pos" reduce="netforce"/>"#
+            r#"<contact name="{side}_ground" body1="world" geom2="{side}_foot" data="force torque pos" reduce="netforce"/>"#
         ));
     }
     out.close("sensor");

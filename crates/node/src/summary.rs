@@ -53,6 +53,8 @@ impl From<LatchedFault> for FaultSummary {
 pub struct PlantSummary {
     /// Control periods since the start.
     pub ticks: u64,
+    /// What the floor is, in words.
+    pub floor: String,
     /// When the robot fell (s).
     pub fell_at_s: Option<f64>,
     /// How the simulation became unstable, and which settings to look at; `None` if it did not.

@@ -8,6 +8,8 @@
 mod contact;
 mod disturbances;
 mod external_engine;
+mod floor_text;
+mod ground;
 mod held_drive;
 mod held_motion;
 mod instability;
@@ -23,13 +25,17 @@ mod sensor_fault;
 mod sensors;
 mod servo_shares;
 mod slope;
+mod sole_point;
 mod step;
 mod truth;
-mod unevenness;
 
 pub use contact::{ContactParameters, FootContact, FootMotion, GroundContact};
 pub use disturbances::Disturbances;
 pub use external_engine::EngineState;
+pub use ground::{
+    FloorRamp, FloorShape, FloorStep, FrictionPatch, FrictionTiles, Ground, GroundPiece, HeightField, Surface, Touch,
+    Unevenness,
+};
 pub use held_drive::HeldDrives;
 pub use held_motion::HeldMotion;
 pub use instability::Instability;
@@ -45,4 +51,3 @@ pub use servo_shares::ServoShares;
 pub use slope::Slope;
 pub use step::Plant;
 pub use truth::Truth;
-pub use unevenness::Unevenness;

@@ -2,7 +2,7 @@
 
 use config::{Config, Table};
 
-use crate::{ContactParameters, Payload, SensorParameters, ServoShares, Slope, Unevenness};
+use crate::{ContactParameters, FloorShape, Ground, Payload, SensorParameters, ServoShares, Slope, Unevenness};
 
 /// The parameters of the simulated robot; `config/plant.toml`.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +15,8 @@ pub struct PlantParameters {
     pub slope: Slope,
     /// Unevenness of the floor.
     pub unevenness: Unevenness,
+    /// Shape and friction of the floor beyond that.
+    pub floor: FloorShape,
     /// The mass that the robot carries.
     pub payload: Payload,
     /// Contact of soles and ground.
@@ -25,6 +27,13 @@ pub struct PlantParameters {
     pub sensors: SensorParameters,
 }
 
+impl PlantParameters {
+    /// The ground of a run with a seed.
+    pub fn ground(&self, seed: u64) -> Ground {
+        Ground::new(self.unevenness, self.floor.clone(), self.contact.friction, seed)
+    }
+}
+
 impl Config for PlantParameters {
     fn read(root: &Table) -> Self {
         Self {
@@ -32,6 +41,7 @@ impl Config for PlantParameters {
             mass_error: root.number("mass_error").between(0.0, 0.5),
             slope: Slope::read(&root.table("slope")),
             unevenness: Unevenness::read(&root.table("unevenness")),
+            floor: FloorShape::read(root),
             payload: Payload::read(&root.table("payload")),
             contact: ContactParameters::read(&root.table("contact")),
             servo: ServoShares::read(root),

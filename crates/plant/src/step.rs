@@ -9,7 +9,9 @@ use crate::contact::FootMotion;
 use crate::loads::Loads;
 use crate::mass_error::unlumped_with_mass_error;
 use crate::sensor_fault::FaultInjector;
-use crate::{Disturbances, Drive, GroundContact, HeldDrives, HeldMotion, PlantParameters, Push, RobotState, Sensors};
+use crate::{
+    Disturbances, Drive, Ground, GroundContact, HeldDrives, HeldMotion, PlantParameters, Push, RobotState, Sensors,
+};
 
 /// The simulated robot with its ground, drives and sensors.
 #[derive(Clone, Debug)]
@@ -23,12 +25,11 @@ pub struct Plant {
     period: f64,
     /// Number of control periods since the start.
     pub(crate) periods: u64,
-    /// Seed of the floor's tiles, the errors of mass and the sensors' noise.
-    seed: u64,
     /// Pose and velocity of the robot.
     pub robot: RobotState,
     /// Pushes and sensor faults. More may be added at any time.
     pub disturbances: Disturbances,
+    pub(crate) floor: Ground,
     contact: GroundContact,
     drive: Drive,
     pub(crate) held_drives: HeldDrives,
@@ -60,6 +61,7 @@ impl Plant {
         let mut plant = Self {
             robot: RobotState { held, ..RobotState::on_right_foot(start, -sunk_in) },
             disturbances: Disturbances::default(),
+            floor: parameters.ground(seed),
             contact: GroundContact::new(&mechanism),
             drive: Drive::new(&mechanism, parameters.servo),
             sensors: Sensors::new(parameters.sensors, seed),
@@ -74,7 +76,6 @@ impl Plant {
             parameters: parameters.clone(),
             period,
             periods: 0,
-            seed,
             tree,
         };
         plant.body.gravity = parameters.slope.gravity();
@@ -145,12 +146,11 @@ impl Plant {
 
         // Forces of ground, payload, pushes and drives.
         let base = robot.sole_to_world.translation.vector;
-        let floor = |place| self.parameters.unevenness.at(place, self.seed);
         let mut loads = Loads::default();
         for side in Side::BOTH {
             let motion = foot_motion(&self.body, self.mechanism.foot(side));
             let foot = &mut self.contact.feet[side.index()];
-            loads.add(*foot.forces_at_step_end(&motion, &base, floor, &self.parameters.contact, step));
+            loads.add(*foot.forces_at_step_end(&motion, &base, &self.floor, &self.parameters.contact, step));
         }
         if self.parameters.payload.mass > 0.0 {
             loads.add(self.parameters.payload.load(&self.body));
@@ -186,7 +186,8 @@ impl Plant {
         });
 
         let support = if feet[0].force.z >= feet[1].force.z { Side::Right } else { Side::Left };
-        let up = kinematics.sole_to_world(&self.mechanism, support).rotation.inverse() * Vector3::z();
+        let sole = kinematics.sole_to_world(&self.mechanism, support);
+        let up = sole.rotation.inverse() * self.floor.normal(sole.translation.vector.xy());
         let mut angles = self.robot.angles;
         angles[Joint::FootRoll] = up.y.atan2(up.z);
         angles[Joint::FootPitch] = (-up.x).atan2(up.z);

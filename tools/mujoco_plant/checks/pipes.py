@@ -22,7 +22,7 @@ def check_pipes(name, told):
         for period in range(5):
             robot.setpoint[0] = 0.001 * period
             robot.advance()
-            process.stdin.write(robot.setpoint.astype("<f8").tobytes())
+            process.stdin.write(np.append(robot.setpoint, 0.0).astype("<f8").tobytes())
             process.stdin.flush()
             state = np.frombuffer(process.stdout.read(8 * plant.STATE), "<f8")
             assert (state == robot.state).all(), f"{name}: another state through the pipe"

@@ -78,6 +78,7 @@ def first_message(folder, name):
         "back_emf": [0.0] * len(roles),
         "start": start(np.zeros(plant.JOINTS)),
         "pushes": [],
+        "floor": [],
     }
     return told, reader
 

@@ -12,6 +12,7 @@ of which `implicitfast` takes the derivative by q', as ours does.
 import mujoco
 import numpy as np
 
+from .floor import Floor
 from .protocol import JOINTS, POWERED, SIDES, STATE
 
 
@@ -19,11 +20,14 @@ class Robot:
     """The simulated robot, one control period at a time."""
 
     def __init__(self, told):
-        self.model = self._load(told)
-        self.data = mujoco.MjData(self.model)
         self.steps = told["steps_per_period"]
         self.step_s = told["period_s"] / self.steps
-        self.model.opt.timestep = self.step_s
+        self.spec, sole = self._load(told)
+        self.spec.option.timestep = self.step_s
+        self.floor = Floor(self.spec, sole)
+        self.floor.lay(told["floor"])
+        self.model = self.spec.compile()
+        self.data = mujoco.MjData(self.model)
         self.pushes = told["pushes"]
         self.periods = 0
 
@@ -35,7 +39,10 @@ class Robot:
         self.powered = np.array([JOINTS - len(POWERED) + POWERED.index(name) for name in told["joints"]])
         # Where the model's joint turns the other way, -1.
         self.signs = np.array([sign for _, sign in names])
-        self._set_drives(told)
+        self.stiffness, self.damping, self.back_emf = (
+            np.array(told[key]) for key in ("stiffness", "damping", "back_emf")
+        )
+        self._set_drives()
         self._set_state(told["start"])
 
         self.setpoint = np.zeros((3, JOINTS))
@@ -43,22 +50,28 @@ class Robot:
         self.grounds = [self.model.sensor(f"{side}_ground").adr[0] for side in SIDES]
 
     def _load(self, told):
-        return mujoco.MjModel.from_xml_string(told["mjcf"])
+        """The robot, and the name of one of its soles."""
+        return mujoco.MjSpec.from_string(told["mjcf"]), "right_foot"
+
+    def lay_floor(self, bodies):
+        """Goes on with another floor under the robot."""
+        self.floor.lay(bodies)
+        warm_start = self.data.qacc_warmstart.copy()
+        self.model, self.data = self.spec.recompile(self.model, self.data)
+        self.data.qacc_warmstart[:] = warm_start
+        self._set_drives()
 
     def _joint(self, name):
         """What the model calls one of the twenty joints, and 1, or -1 if it turns the other way."""
         return name, 1.0
 
-    def _set_drives(self, told):
+    def _set_drives(self):
         """Turns torque motors into drives."""
-        stiffness, damping, back_emf = (np.array(told[key]) for key in ("stiffness", "damping", "back_emf"))
-        self.stiffness, self.damping = stiffness, damping
         bias = self.model.actuator_biasprm
         self.model.actuator_biastype[self.actuators] = mujoco.mjtBias.mjBIAS_AFFINE
-        bias[self.actuators, 1] = -stiffness
-        bias[self.actuators, 2] = -(damping + self.step_s * stiffness) + back_emf
-        self.model.dof_damping[self.dofs] += back_emf
-        self.back_emf = back_emf
+        bias[self.actuators, 1] = -self.stiffness
+        bias[self.actuators, 2] = -(self.damping + self.step_s * self.stiffness) + self.back_emf
+        self.model.dof_damping[self.dofs] += self.back_emf
 
     def _set_state(self, start):
         self.data.qpos[self.qpos] = self.signs * np.array(start["angles"])[self.powered]

@@ -31,6 +31,9 @@ def serve():
     # Nobody left to answer is as good an end as no more setpoints.
     with contextlib.suppress(BrokenPipeError):
         while len(record := sys.stdin.buffer.read(8 * SETPOINT)) == 8 * SETPOINT:
-            robot.setpoint[:] = np.frombuffer(record, "<f8").reshape(3, JOINTS)
+            *setpoint, floor_bytes = np.frombuffer(record, "<f8")
+            if floor_bytes:
+                robot.lay_floor(json.loads(sys.stdin.buffer.read(int(floor_bytes))))
+            robot.setpoint[:] = np.reshape(setpoint, (3, JOINTS))
             robot.advance()
             os.write(STATES, robot.state.astype("<f8", copy=False).tobytes())

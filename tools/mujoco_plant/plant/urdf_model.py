@@ -19,13 +19,13 @@ GROUND_DATA, GROUND_NET = 1 << 1 | 1 << 2 | 1 << 4, 3
 
 
 class UrdfModel:
-    """MuJoCo's model of a robot from its URDF, on a floor.
+    """MuJoCo's model of a robot from its URDF, on a plane or on no floor yet.
 
     Joints and their actuators have the URDF's names. `pushable` holds, by the mechanism's name of a link, its body's
     name and its centre of mass, without payload, in the body's frame.
     """
 
-    def __init__(self, text, setup, step_s):
+    def __init__(self, text, setup, step_s, is_plane=True):
         wrong, seed = (setup["mass_error"][key] for key in ("share", "seed"))
         errors = random.Random(seed)
         self.urdf = Urdf(text, lambda: 1 + errors.uniform(-wrong, wrong))
@@ -51,7 +51,9 @@ class UrdfModel:
             name: (self.urdf.bodies[link], self._centre_of_mass(self.urdf.bodies[link]))
             for name, link in self._pushable(feet, trunk).items()
         }
-        self._add_floor_and_soles(feet)
+        self._add_soles(feet)
+        if is_plane:
+            self._add_floor()
         self._add_payload(trunk)
         self.spec.compiler.fusestatic = True
         self.model = self.spec.compile()
@@ -170,17 +172,22 @@ class UrdfModel:
         # MuJoCo takes no time constant shorter than two steps.
         return max(CONTACT_TIME * math.sqrt(max(leg, 0) / CONTACT_LEG), 2 * self.step_s)
 
-    def _add_floor_and_soles(self, feet):
-        sole, contact_time = self.setup["sole"], self.contact_time()
-        contact = {
+    def _contact(self):
+        return {
             "condim": 3,
             "friction": (self.setup["friction"], *UNUSED_FRICTION),
-            "solref": (contact_time, 1),
+            "solref": (self.contact_time(), 1),
             "solimp": CONTACT_IMPEDANCE,
             "mass": 0,
         }
-        plane, box = mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_BOX
-        self.spec.worldbody.add_geom(name="floor", type=plane, size=(0, 0, 0.5), contype=1, conaffinity=0, **contact)
+
+    def _add_floor(self):
+        plane = mujoco.mjtGeom.mjGEOM_PLANE
+        world = self.spec.worldbody
+        world.add_geom(name="floor", type=plane, size=(0, 0, 0.5), contype=1, conaffinity=0, **self._contact())
+
+    def _add_soles(self, feet):
+        sole, contact, box = self.setup["sole"], self._contact(), mujoco.mjtGeom.mjGEOM_BOX
         for side, foot in feet.items():
             body = self.spec.body(self.urdf.bodies[foot])
             number = self.model.body(body.name).id
@@ -202,8 +209,8 @@ class UrdfModel:
             self.spec.add_sensor(
                 name=f"{side}_ground",
                 type=mujoco.mjtSensor.mjSENS_CONTACT,
-                objtype=mujoco.mjtObj.mjOBJ_GEOM,
-                objname="floor",
+                objtype=mujoco.mjtObj.mjOBJ_BODY,
+                objname="world",
                 reftype=mujoco.mjtObj.mjOBJ_GEOM,
                 refname=name,
                 intprm=(GROUND_DATA, GROUND_NET, 1),

@@ -17,14 +17,14 @@ class UrdfRobot(Robot):
         self.urdf_joints = {joint["role"]: (joint["urdf"], float(joint["sign"])) for joint in setup["joints"]}
         if set(self.urdf_joints) != set(told["joints"]):
             raise ValueError("joints and urdf_setup.joints are not of the same joints")
-        built = UrdfModel(told["urdf"], setup, told["period_s"] / told["steps_per_period"])
+        built = UrdfModel(told["urdf"], setup, self.step_s, is_plane=not told["floor"])
         self.pushable = {name: (built.model.body(body).id, centre) for name, (body, centre) in built.pushable.items()}
         if unknown := {push["body"] for push in told["pushes"]} - set(self.pushable):
             raise ValueError(f"a push acts on {', '.join(sorted(unknown))}, which this robot does not have")
         self.held = [(built.model.joint(each["urdf"]).qposadr[0], each["at"]) for each in setup["held"]]
         self.sole = built.model.site("right_sole").id
         self.foot = built.model.site_bodyid[self.sole]
-        return built.model
+        return built.spec, "right_foot_on_floor"
 
     def _joint(self, name):
         return self.urdf_joints[name]

@@ -85,7 +85,10 @@ impl PlantArgs {
         let _leftovers = instance.leftovers();
         let PlantPorts { setpoints, mut measurements } = PlantPorts::connect(&instance, robot.mechanism.fingerprint)?;
         let clock = self.runs.clock();
-        let to = self.recorded(&files, urdf, realtime.rate, robot.mechanism.fingerprint)?;
+        let field = parameters.floor.height_field.as_ref();
+        let attached = urdf.map(|text| (URDF.to_owned(), text)).into_iter();
+        let attached = attached.chain(field.map(|field| (field.file.clone(), field.text.to_string())));
+        let to = self.recorded(&files, attached.collect(), realtime.rate, robot.mechanism.fingerprint)?;
         realtime.keep_off_the_loop(clock);
         let (mut recorder, recorder_thread) = recorder::of_plant(clock, realtime.rate, to, self.child.announced())?;
         let ticks = self.runs.ticks(realtime.rate);
@@ -110,6 +113,7 @@ impl PlantArgs {
 
         let summary = PlantSummary {
             ticks: run.ticks,
+            floor: parameters.floor_text(),
             fell_at_s: run.fell_at.map(|tick| tick as f64 * period),
             deadline_misses: run.missed,
             unstable: run.unstable.map(|unstable| {
@@ -143,16 +147,18 @@ impl PlantArgs {
     }
 
     /// Where to record to, if anywhere, and what the run begins with.
+    ///
+    /// * `attached` – names and texts of further files
     fn recorded(
         &self,
         files: &ConfigFiles,
-        urdf: Option<String>,
+        attached: Vec<(String, String)>,
         rate: Rate,
         fingerprint: u64,
     ) -> Result<Option<(&Path, Provenance)>, CliError> {
         let Some(folder) = self.child.out.as_deref() else { return Ok(None) };
         let mut files = files.texts(PLANT, self.disturbances.as_deref())?;
-        files.extend(urdf.map(|text| (URDF.to_owned(), text)));
+        files.extend(attached);
         let mut how = Metadata::new("plant", self.runs.words(&self.instance, rate, fingerprint));
         how.entries.insert("seed".to_owned(), self.seed.to_string());
         how.entries.insert("engine".to_owned(), self.engine.name().to_owned());

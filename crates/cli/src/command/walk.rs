@@ -243,6 +243,7 @@ impl WalkArgs {
             duration_s,
             seed: self.seed,
             plant: self.plant.name(),
+            floor: plant.floor.clone(),
             instance: instance.name().to_string(),
             clock: self.runs.clock().text(),
             deadline_misses: controller.deadline_misses + plant.deadline_misses,

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use super::laid_floor::EDGE_MIN;
 use super::message::{PROTOCOL, SETPOINT_LEN, STATE_LEN};
 
 /// Why an engine cannot be used. The engine itself may have printed more on stderr.
@@ -15,11 +16,14 @@ pub enum EngineError {
         /// Why the operating system refused.
         cause: std::io::Error,
     },
-    /// The plant's parameters have an uneven floor, which external engines do not support.
-    #[error("unevenness.height_m is {height}: other engines know even floors only, 0 would be right")]
-    Uneven {
-        /// The configured height of the unevenness (m).
-        height: f64,
+    /// The floor has more pieces than an external engine can have bodies.
+    #[error(
+        "the floor has tiles or cells of {edge} m: other engines get a body for each, {EDGE_MIN} m or more would be \
+         right"
+    )]
+    FineFloor {
+        /// Edge of the smallest tiles or cells (m).
+        edge: f64,
     },
     /// The engine's process has ended.
     #[error("the engine has ended: {0}")]

@@ -1,16 +1,17 @@
 //! The first message to an engine: the robot as its mechanism or as its URDF, and what the run begins with.
 
-use interchange::mjcf::mjcf_text;
+use interchange::mjcf::mjcf_text_on;
 use model::{Joint, Mechanism, UrdfSource};
 use plant::{Disturbances, PlantParameters, RobotState, with_mass_error};
 use serde::Serialize;
 
 use super::engine_error::EngineError;
+use super::laid_floor::{EDGE_MIN, FloorBody, LaidFloor};
 use super::message::PROTOCOL;
 use super::urdf_setup::UrdfSetup;
 
 /// The first message to an engine: robot, floor, drives, and disturbances.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct EngineSetup {
     protocol: u32,
     #[serde(flatten)]
@@ -27,6 +28,10 @@ pub struct EngineSetup {
     back_emf: Vec<f64>,
     start: InitialState,
     pushes: Vec<ScheduledPush>,
+    /// Bodies of the floor around the robot; none if it is a plane.
+    floor: Vec<FloorBody>,
+    #[serde(skip)]
+    pub(super) laid_floor: Option<LaidFloor>,
 }
 
 /// How the robot is described; the variant's fields are keys of the message.
@@ -64,7 +69,7 @@ impl EngineSetup {
     /// The setup for the robot that the plant's parameters and seed define, with its initial state.
     ///
     /// # Errors
-    /// [`EngineError::Uneven`].
+    /// [`EngineError::FineFloor`].
     pub fn new(
         mechanism: &Mechanism,
         parameters: &PlantParameters,
@@ -73,16 +78,20 @@ impl EngineSetup {
         seed: u64,
         period: f64,
     ) -> Result<Self, EngineError> {
-        if parameters.unevenness.height > 0.0 {
-            return Err(EngineError::Uneven { height: parameters.unevenness.height });
+        let ground = parameters.ground(seed);
+        if let Some(edge) = ground.finest_edge().filter(|edge| *edge < EDGE_MIN) {
+            return Err(EngineError::FineFloor { edge });
         }
+        let laid_floor = LaidFloor::around(ground, start.sole_to_world.translation.vector.xy());
+        // The engine gets its bodies by themselves, since they change.
+        let without_bodies = laid_floor.as_ref().map(|_| [].as_slice());
         let built = with_mass_error(mechanism, parameters.mass_error, seed);
         let servo = |joint| parameters.servo.of(mechanism.servos.of(joint));
         let motors = || Joint::ALL.into_iter().filter_map(|joint| Some((joint, mechanism.links[joint].motor?)));
         let orientation = start.sole_to_world.rotation;
         Ok(Self {
             protocol: PROTOCOL,
-            robot: RobotModel::Mechanism { mjcf: mjcf_text(&built, parameters, period) },
+            robot: RobotModel::Mechanism { mjcf: mjcf_text_on(&built, parameters, without_bodies, period) },
             period_s: period,
             steps_per_period: parameters.steps_per_period,
             joints: motors().map(|(joint, _)| joint.name()).collect(),
@@ -107,6 +116,8 @@ impl EngineSetup {
                     duration: push.duration,
                 })
                 .collect(),
+            floor: laid_floor.as_ref().map(LaidFloor::bodies).unwrap_or_default(),
+            laid_floor,
         })
     }
 

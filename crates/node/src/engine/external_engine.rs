@@ -9,10 +9,11 @@ use std::time::Duration;
 use crossbeam::channel::{Receiver, RecvTimeoutError, Sender, bounded};
 
 use plant::Plant;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::engine_error::EngineError;
 use super::engine_setup::EngineSetup;
+use super::laid_floor::LaidFloor;
 use super::message::{PROTOCOL, SETPOINT_LEN, STATE_LEN, decode_state, encode_setpoint};
 
 /// An engine's answer to the first message.
@@ -31,6 +32,7 @@ pub struct ExternalEngine {
     setpoints: Option<ChildStdin>,
     /// What a thread has read of the engine's output: reading by itself would wait for a hung engine without end.
     answers: Receiver<std::io::Result<Answer>>,
+    floor: Option<LaidFloor>,
     /// The engine's name as it reports it.
     pub name: String,
 }
@@ -63,13 +65,12 @@ impl ExternalEngine {
             .map_err(|cause| EngineError::Start { program, cause })?;
         let (setpoints, states) = (child.stdin.take(), child.stdout.take().expect("a pipe was asked for"));
         let (outgoing, answers) = bounded(1);
-        let mut engine = Self { child, setpoints, answers, name: String::new() };
+        let mut engine = Self { child, setpoints, answers, floor: setup.laid_floor.clone(), name: String::new() };
         std::thread::Builder::new()
             .name("engine".to_owned())
             .spawn(move || read_answers(BufReader::new(states), &outgoing))
             .map_err(EngineError::Thread)?;
-        let line = serde_json::to_string(setup).map_err(|error| EngineError::Mismatch(error.to_string()))?;
-        engine.send(format!("{line}\n").as_bytes())?;
+        engine.send(format!("{}\n", in_json(setup)?).as_bytes())?;
 
         let Answer::Line(answer) = engine.answer(START_MAX)? else {
             return Err(EngineError::Mismatch("a state before the first line".to_owned()));
@@ -86,7 +87,12 @@ impl ExternalEngine {
     /// # Errors
     /// The engine has ended, or its state is not finite.
     pub fn step(&mut self, plant: &mut Plant, setpoint: &Setpoint) -> Result<Measurement, EngineError> {
-        self.send(&encode_setpoint(setpoint))?;
+        let floor = self.floor.as_mut().and_then(|floor| floor.follow(plant)).map(|bodies| in_json(&bodies));
+        let floor = floor.transpose()?.unwrap_or_default();
+        self.send(&encode_setpoint(setpoint, floor.len()))?;
+        if !floor.is_empty() {
+            self.send(floor.as_bytes())?;
+        }
         let Answer::State(state) = self.answer(STEP_MAX)? else {
             return Err(EngineError::Mismatch("a second line".to_owned()));
         };
@@ -108,6 +114,10 @@ impl ExternalEngine {
         };
         pipe.write_all(bytes).and_then(|()| pipe.flush()).map_err(EngineError::Ended)
     }
+}
+
+fn in_json(value: &impl Serialize) -> Result<String, EngineError> {
+    serde_json::to_string(value).map_err(|error| EngineError::Mismatch(error.to_string()))
 }
 
 /// Reads what an engine writes until it ends, or until nobody wants it any more.

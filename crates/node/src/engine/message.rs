@@ -6,9 +6,10 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use plant::{EngineState, HeldMotion, RobotState};
 
 /// Version of the protocol between this program and engines.
-pub(super) const PROTOCOL: u32 = 2;
-/// Numbers in a setpoint: angles (rad), rates (rad/s) and feed-forward torques (N·m) of the 20 joints.
-pub(super) const SETPOINT_LEN: usize = 3 * Joint::COUNT;
+pub(super) const PROTOCOL: u32 = 3;
+/// Numbers in a setpoint: angles (rad), rates (rad/s) and feed-forward torques (N·m) of the 20 joints, and the number
+/// of bytes of a floor, as JSON, that follows; 0 for none.
+pub(super) const SETPOINT_LEN: usize = 3 * Joint::COUNT + 1;
 /// Numbers in a state: of the right sole position, quaternion w x y z, angular rate, velocity; of the joints angles and
 /// rates; of the ground force and moment on the right and on the left foot, about the right sole's origin; motor
 /// torques. All but the joints' in world axes, in SI units.
@@ -16,11 +17,11 @@ pub(super) const STATE_LEN: usize = 3 + 4 + 3 + 3 + 2 * Joint::COUNT + 2 * 6 + J
 
 const SIZE: usize = size_of::<f64>();
 
-/// Encodes a setpoint.
-pub(super) fn encode_setpoint(setpoint: &Setpoint) -> [u8; SETPOINT_LEN * SIZE] {
+/// Encodes a setpoint, and the number of bytes of a floor that follows it.
+pub(super) fn encode_setpoint(setpoint: &Setpoint, floor_bytes: usize) -> [u8; SETPOINT_LEN * SIZE] {
     let mut bytes = [0; SETPOINT_LEN * SIZE];
     let values = [&setpoint.angles, &setpoint.rates, &setpoint.feed_forward];
-    let values = values.into_iter().flat_map(|joints| joints.0);
+    let values = values.into_iter().flat_map(|joints| joints.0).chain([floor_bytes as f64]);
     for (place, value) in bytes.chunks_exact_mut(SIZE).zip(values) {
         place.copy_from_slice(&value.to_le_bytes());
     }
@@ -88,12 +89,13 @@ mod tests {
 
     #[test]
     fn setpoint_for_an_engine_is_encoded_as_angles_rates_and_torques() {
-        let sent = encode_setpoint(&Setpoint {
+        let setpoint = Setpoint {
             angles: JointVector::unit(Joint::FootRoll),
             rates: JointVector::unit(Joint::FootRoll) * 2.0,
             feed_forward: JointVector::unit(Joint::LeftElbow) * 3.0,
-        });
+        };
+        let sent = encode_setpoint(&setpoint, 4000);
         let value = |index: usize| f64::from_le_bytes(sent.as_chunks::<SIZE>().0[index]);
-        assert_eq!([value(0), value(20), value(59)], [1.0, 2.0, 3.0]);
+        assert_eq!([value(0), value(20), value(59), value(60)], [1.0, 2.0, 3.0, 4000.0]);
     }
 }

@@ -1,7 +1,8 @@
 //! External physics engines: other programs that compute the robot's physics for the plant.
 //!
 //! An engine is a process that communicates through its stdin and stdout. It receives the robot as one line of JSON and
-//! then one setpoint per control period, which it answers with a state (little-endian doubles, see
+//! then one setpoint per control period, with a floor where the robot has come to new
+//! ground, which it answers with a state (little-endian doubles, see
 //! `tools/mujoco_plant/plant/protocol.py`). Services, clock, sensors, faults and recording stay here, so that both
 //! plants differ in nothing but physics, and a run in lockstep depends on nothing but its inputs.
 
@@ -9,6 +10,7 @@ mod engine_error;
 mod engine_setup;
 mod environment;
 mod external_engine;
+mod laid_floor;
 mod message;
 mod mujoco_program;
 mod text_hash;

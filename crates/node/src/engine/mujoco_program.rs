@@ -13,9 +13,10 @@ macro_rules! files {
 }
 
 /// Names and texts of the files. Python runs the folder that holds them.
-const FILES: [(&str, &str); 8] = files![
+const FILES: [(&str, &str); 9] = files![
     "__main__.py",
     "plant/__init__.py",
+    "plant/floor.py",
     "plant/protocol.py",
     "plant/robot.py",
     "plant/serve.py",

@@ -3,7 +3,8 @@
 use config::Table;
 use nalgebra::Vector2;
 
-use crate::robot_sized::EVEN_HALF_EDGE;
+use super::cut::Cut;
+use super::tile_share::{is_where_the_walk_begins, tile_share};
 
 /// Greatest height of a tile (m): twice as much, from a low tile to a high one, is more than any foot clears.
 const HEIGHT_MAX: f64 = 0.1;
@@ -16,6 +17,12 @@ pub struct Unevenness {
     pub height: f64,
     /// Length of a tile's edge (m).
     pub tile: f64,
+}
+
+impl Default for Unevenness {
+    fn default() -> Self {
+        Self { height: 0.0, tile: 0.3 }
+    }
 }
 
 impl Unevenness {
@@ -31,22 +38,16 @@ impl Unevenness {
 
     /// Height of the floor at a place in the world (m); every seed has its own tiles.
     pub fn at(&self, place: Vector2<f64>, seed: u64) -> f64 {
-        if self.height == 0.0 || place.amax() < EVEN_HALF_EDGE {
+        if self.height == 0.0 || is_where_the_walk_begins(place) {
             return 0.0;
         }
-        let [column, row] = [place.x, place.y].map(|coordinate| (coordinate / self.tile).floor() as i64 as u64);
-        let mixed = scramble(scramble(scramble(seed) ^ column) ^ row);
-        let share = (mixed >> 11) as f64 / (1u64 << 53) as f64;
-        self.height * (2.0 * share - 1.0)
+        self.height * (2.0 * tile_share(place, self.tile, seed) - 1.0)
     }
-}
 
-/// The finaliser of SplitMix64 (Steele, Lea and Flood 2014): every bit of the input changes every bit of the output.
-fn scramble(value: u64) -> u64 {
-    let value = value.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let value = (value ^ (value >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let value = (value ^ (value >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    value ^ (value >> 31)
+    /// The edges of the tiles in a square.
+    pub(super) fn cuts(&self, centre: Vector2<f64>, half_edge: f64) -> Vec<Cut> {
+        if self.height == 0.0 { Vec::new() } else { Cut::grid(Vector2::zeros(), self.tile, centre, half_edge) }
+    }
 }
 
 #[cfg(test)]
