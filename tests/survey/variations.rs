@@ -2,11 +2,17 @@
 
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::{Walking, controller_parameters, plant_parameters};
-use nalgebra::Vector3;
-use plant::{Payload, PlantParameters, Slope};
+use interface::{GaitChange, Measurement, Setpoint};
+use model::Mechanism;
+use nalgebra::{Vector2, Vector3};
+#[cfg(feature = "mujoco")]
+use plant::Disturbances;
+use plant::{FloorShape, FloorStep, FrictionTiles, Payload, Plant, PlantParameters, Slope};
 
 use crate::asked;
 use crate::cores::on_all_cores;
+#[cfg(feature = "mujoco")]
+use crate::mujoco::{Outside, start};
 use crate::table::{self, millimetres};
 use crate::watched::Watched;
 
@@ -18,10 +24,26 @@ pub(crate) struct Options {
     /// A harder world: nine walks on each of much worse floors, with worse sensors and loads
     #[arg(long)]
     hard: bool,
+    /// Whose physics
+    #[arg(long, value_enum, default_value_t = Physics::Rust)]
+    plant: Physics,
     /// Robots whose masses are wrong, each in its own way
     #[arg(long, default_value_t = 4)]
     seeds: u64,
 }
+
+/// Who computes the physics.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Physics {
+    /// Our plant
+    Rust,
+    /// MuJoCo
+    #[cfg(feature = "mujoco")]
+    Mujoco,
+}
+
+/// What moves the plant on by a control period.
+type Moves = Box<dyn FnMut(&mut Plant, &Setpoint) -> Measurement>;
 
 /// Corners and edges of what must be walked, and its middle: `c` and `α` (deg).
 const COMMANDS: [(f64, f64); 9] = [
@@ -47,6 +69,8 @@ const COMMANDS_IN_HARD_WORLD: [(f64, f64); 9] = [
     (1.2, 0.0),
     (1.2, 15.0),
 ];
+/// Where the step lies (m).
+const STEP_FROM: f64 = 1.2;
 /// When the walk leaves the nominal (s).
 const ENTRY: f64 = 2.0;
 
@@ -66,11 +90,18 @@ pub(crate) fn survey(options: &Options) -> bool {
         let (speed, turn) = commands[index % commands.len()];
         // In a harder world each walk has its own noise and its own floor.
         let seed = if options.hard { (index % commands.len()) as u64 } else { *seed };
-        let mut watched = Watched::new(Walking::begin_with(&mechanism, &controller, parameters, seed));
-        watched.walk_until(ENTRY);
+        let mut moves = options.plant.begin(&mechanism, &controller, parameters, seed);
+        let walking = Walking::begin_with(&mechanism, &controller, parameters, seed);
+        let mut watched = Watched::begin_in(walking, &mut moves);
+        let mut walk_until = |watched: &mut Watched, seconds: f64, request: Option<&GaitChange>| {
+            watched.tick_in(request, &mut moves);
+            while watched.fall.is_none() && watched.walking.time() < seconds {
+                watched.tick_in(None, &mut moves);
+            }
+        };
+        walk_until(&mut watched, ENTRY, None);
         watched.begin_anew();
-        watched.tick(Some(&asked::request(speed, turn, 0.0)));
-        watched.walk_until(options.seconds);
+        walk_until(&mut watched, options.seconds, Some(&asked::request(speed, turn, 0.0)));
         watched
     });
 
@@ -98,6 +129,27 @@ pub(crate) fn survey(options: &Options) -> bool {
     passed
 }
 
+impl Physics {
+    /// Begins the walk of a robot.
+    fn begin(
+        self,
+        mechanism: &Mechanism,
+        controller: &controller::Parameters,
+        parameters: &PlantParameters,
+        seed: u64,
+    ) -> Moves {
+        match self {
+            Self::Rust => Box::new(Plant::step),
+            #[cfg(feature = "mujoco")]
+            Self::Mujoco => {
+                let (start, nothing) = (start(mechanism, controller), Disturbances::default());
+                let mut outside = Outside::begin(mechanism, parameters, &nothing, &start, seed);
+                Box::new(move |plant, setpoint| outside.step(plant, setpoint))
+            }
+        }
+    }
+}
+
 fn vary(name: &str, change: impl Fn(&mut PlantParameters)) -> Variation {
     let mut parameters = plant_parameters();
     change(&mut parameters);
@@ -107,6 +159,14 @@ fn vary(name: &str, change: impl Fn(&mut PlantParameters)) -> Variation {
 fn slope(ahead: f64, left: f64) -> impl Fn(&mut PlantParameters) {
     let slope = Slope { ahead: ahead.to_radians(), left: left.to_radians() };
     move |parameters: &mut PlantParameters| parameters.slope = slope
+}
+
+/// A step across the walk, near enough to be met by walks that turn, too.
+fn step(height: f64) -> impl Fn(&mut PlantParameters) {
+    let step = FloorStep { direction: Vector2::x(), from: STEP_FROM, height, length: f64::INFINITY };
+    move |parameters: &mut PlantParameters| {
+        parameters.floor = FloorShape { steps: vec![step], ..FloorShape::default() };
+    }
 }
 
 fn tiles(height: f64) -> impl Fn(&mut PlantParameters) {
@@ -123,10 +183,19 @@ fn hard_variations() -> Vec<Variation> {
             vary(&format!("slope {degrees}° up ahead"), slope(degrees, 0.0)),
             vary(&format!("slope {degrees}° down ahead"), slope(-degrees, 0.0)),
             vary(&format!("slope {degrees}° up to the left"), slope(0.0, degrees)),
+            vary(&format!("slope {degrees}° up to the right"), slope(0.0, -degrees)),
         ]);
     }
     variations.extend([
+        vary("step 10 mm up", step(0.01)),
+        vary("step 10 mm down", step(-0.01)),
+        vary("step 30 mm up", step(0.03)),
+        vary("step 30 mm down", step(-0.03)),
         vary("friction 0.4", |parameters| parameters.contact.friction = 0.4),
+        vary("friction 0.3 to 0.8 by tile", |parameters| {
+            let friction = FrictionTiles { least: 0.3, greatest: 0.8, tile: 0.3 };
+            parameters.floor = FloorShape { friction_tiles: Some(friction), ..FloorShape::default() };
+        }),
         vary("sensor delay 5 ms", |parameters| parameters.sensors.delay_periods = 5),
         vary("payload 10 kg behind", |parameters| parameters.payload = Payload { mass: 10.0, at: behind }),
         vary("masses ±10 %", |parameters| parameters.mass_error = 0.1),
