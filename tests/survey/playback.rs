@@ -93,7 +93,7 @@ impl Playback {
     fn tick(&mut self, step: impl FnOnce(&mut Plant, &Setpoint) -> Measurement) {
         // Balance answers what was sensed, told from the foot that bore then.
         let sensed = self.centre_of_mass();
-        let sensed = BalanceState { com: sensed, tilt: Vector2::zeros(), zmp: None };
+        let sensed = BalanceState { com: sensed, tilt: Vector2::zeros(), zmp: None, foot: None };
         self.feedback.update(&BalanceState::planned(&self.plan), Some(&sensed), false, PERIOD);
         self.since_support_change += PERIOD;
         if self.walk.advance(PERIOD) {

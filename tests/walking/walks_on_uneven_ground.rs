@@ -43,6 +43,6 @@ fn falls_on_uneven_tiles_with_stiff_legs_and_blind_ankles() {
     let mut stiff = controller_parameters();
     stiff.stabilizer.landing.damping = 1e9;
     stiff.stabilizer.feedback.foot_damping_time_constant = 1e6;
-    assert!((0..3).any(|seed| !walks(&stiff, HIGH, GaitChange::default(), seed)));
+    assert!((0..12).any(|seed| !walks(&stiff, HIGH, GaitChange::default(), seed)));
     assert!((0..3).all(|seed| walks(&controller_parameters(), HIGH, GaitChange::default(), seed)));
 }

@@ -17,7 +17,8 @@ use model::{ComState, JointVector, Mechanism, Motion, Side};
 use nalgebra::Vector2;
 use pattern::{BodyTilt, FeasibilityCheck, MeasuredBalance, PatternGenerator, Stance, VelocityMap};
 use stabilizer::{
-    BalanceState, ComPrediction, ContactEstimate, DcmFeedback, LandingCompliance, WalkOdometry, ZmpEstimator,
+    BalanceState, ComPrediction, ContactEstimate, DcmFeedback, LandingCompliance, SupportFoot, WalkOdometry,
+    ZmpEstimator,
 };
 
 use crate::admission_control::AdmissionControl;
@@ -56,6 +57,8 @@ pub struct Controller {
     contact: ContactEstimate,
     /// Rotation of the robot beyond the plan about x and y of support coordinates, as last measured (rad).
     tilt: Vector2<f64>,
+    /// The support foot as last measured, while it bears.
+    support_foot: Option<SupportFoot>,
     reference: ReferenceDynamics,
     feedback: DcmFeedback,
     landing: LandingCompliance,
@@ -143,6 +146,7 @@ impl Controller {
             zmp_estimator: ZmpEstimator::new(mechanism, parameters.stabilizer.zmp),
             contact: ContactEstimate::AIRBORNE,
             tilt: Vector2::zeros(),
+            support_foot: None,
             feedback: DcmFeedback::new(mechanism, parameters.stabilizer.feedback),
             landing: LandingCompliance::new(mechanism, parameters.stabilizer.landing),
             limiter: JointLimiter::new(mechanism, &first),
@@ -275,7 +279,7 @@ impl Controller {
 
         // A foot that bears alone says where the ground pushes.
         let zmp = self.contact.zmp.filter(|_| self.contact.in_contact == [true, false] && !is_changing_support);
-        let measured = com.map(|com| BalanceState { com, tilt: self.tilt, zmp });
+        let measured = com.map(|com| BalanceState { com, tilt: self.tilt, zmp, foot: self.support_foot });
         self.feedback.update(&BalanceState::planned(&self.reference), measured.as_ref(), in_double_support, dt);
 
         // On both feet the weight moves to and fro as the robot comes to rest.
@@ -326,6 +330,7 @@ impl Controller {
             self.landing.change_support(mirror);
             self.zmp_estimator.change_support(mirror);
             self.com_prediction = ComPrediction::default();
+            self.support_foot = None;
         }
         let motion = gait.motion();
         self.reference.update(&self.tree, gait.walk().mirror(), &motion, gait.contact());

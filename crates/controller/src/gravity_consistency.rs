@@ -134,9 +134,10 @@ mod tests {
                 },
                 tilt: Vector2::zeros(),
                 zmp: Some(zmp),
+                foot: None,
             };
             let com = ComState { position: Vector3::new(0.1, 0.09, HEIGHT), velocity: Vector3::zeros() };
-            let planned = BalanceState { com, tilt: Vector2::zeros(), zmp: Some(com.position.xy()) };
+            let planned = BalanceState { com, tilt: Vector2::zeros(), zmp: Some(com.position.xy()), foot: None };
             if gravity.update(&measured, &planned, support, PERIOD) {
                 return gravity.askew(support).map(|tilt| (time, ahead_and_left(tilt, support)));
             }

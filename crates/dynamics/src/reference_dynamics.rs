@@ -73,6 +73,11 @@ impl ReferenceDynamics {
         Vector2::new(up.y, -up.x)
     }
 
+    /// Lean of the vertical over the support sole as planned: x and y of the unit vector (-).
+    pub fn vertical(&self) -> Vector2<f64> {
+        self.vertical
+    }
+
     /// The kinematics of the motion.
     pub fn kinematics(&self) -> &Kinematics {
         &self.inverse.kinematics

@@ -1,5 +1,5 @@
-//! Estimates the slope of the ground from the tilt of the support soles: on a slope a body is balanced when its centre
-//! of mass is above the sole along the vertical, not along the normal of the floor.
+//! The slope of the ground that the plan follows: on a slope a body is balanced when its centre of mass is above the
+//! sole along the vertical, not along the normal of the floor.
 
 use nalgebra::Vector2;
 use signal::{CriticallyDamped, LowPass};
@@ -13,12 +13,17 @@ use crate::proportions::PatternProportions;
 pub(crate) struct GroundSlopeEstimator {
     sensed: LowPass<Vector2<f64>>,
     planned: CriticallyDamped<Vector2<f64>>,
-    /// Time constant of the lag (s).
+    /// Time constant of the lag once the ground has been walked on for a while (s).
     time_constant: f64,
+    /// How long the ground has been sensed (s).
+    sensed_for: f64,
 }
 
-/// The steepest slope that is believed, as the sine of 6°. A robot that tilts more does not stand on its soles.
-const LEAN_MAX: f64 = 0.105;
+/// The steepest slope that is believed, as the sine of 12°. A robot that tilts more does not stand on its soles.
+const LEAN_MAX: f64 = 0.208;
+
+/// The first steps on unknown ground are followed so much faster (-).
+const TIME_CONSTANT_SHARE_AT_FIRST: f64 = 1.0 / 3.0;
 
 impl GroundSlopeEstimator {
     /// Level ground.
@@ -27,21 +32,25 @@ impl GroundSlopeEstimator {
             sensed: LowPass::new(proportions.sensed_vertical_time_constant, Vector2::zeros()),
             planned: CriticallyDamped::default(),
             time_constant: proportions.slope_time_constant,
+            sensed_for: 0.0,
         }
     }
 
     /// Absorbs a measurement.
     ///
-    /// * `lean` – of the vertical over a sole that supports, in the walk frame (-)
+    /// * `lean` – of the vertical over the ground, in the walk frame (-)
     /// * `dt` – how long it lasted (s)
     pub(crate) fn update(&mut self, lean: Vector2<f64>, dt: f64) {
         self.sensed.update(lean.cap_magnitude(LEAN_MAX), dt);
+        self.sensed_for += dt;
     }
 
     /// Lets the planned lean follow the sensed one for `dt` (s), measured or not: the centre of mass moves with it, and
     /// must not jerk whenever a sole tips.
     pub(crate) fn advance(&mut self, dt: f64) {
-        self.planned.advance(self.sensed.value(), self.time_constant, dt);
+        let least = self.time_constant * TIME_CONSTANT_SHARE_AT_FIRST;
+        let time_constant = (self.sensed_for / 2.0).max(least).min(self.time_constant);
+        self.planned.advance(self.sensed.value(), time_constant, dt);
     }
 
     /// Lean of the vertical over the floor as sensed, in the walk frame (-).
@@ -65,9 +74,10 @@ mod tests {
         let step = Vector2::new(0.03, -0.02);
         let time_constant = PatternProportions::of_built_in_robot().slope_time_constant;
         let mut slope = GroundSlopeEstimator::new(&PatternProportions::of_built_in_robot());
+        (0..1000).for_each(|_| slope.update(Vector2::zeros(), 1e-3));
         (0..1000).for_each(|_| slope.update(step, 1e-3));
         assert!((slope.sensed() - step).norm() < 1e-6);
-        for tick in 1..=6000 {
+        for tick in 1..=18_000 {
             slope.advance(1e-3);
             let t = f64::from(tick) * 1e-3 / time_constant;
             let expected = step * (1.0 - (1.0 + t) * (-t).exp());
@@ -82,6 +92,7 @@ mod tests {
     fn planned_slope_is_smooth_when_measurements_come_now_and_then() {
         let time_constant = PatternProportions::of_built_in_robot().slope_time_constant;
         let mut slope = GroundSlopeEstimator::new(&PatternProportions::of_built_in_robot());
+        (0..2000).for_each(|_| slope.update(Vector2::zeros(), 1e-3));
         let mut last = [0.0; 2];
         for knot in 0..300 {
             if knot / 3 % 2 == 0 {
@@ -97,7 +108,7 @@ mod tests {
     #[test]
     fn slope_of_a_falling_robot_is_limited() {
         let mut slope = GroundSlopeEstimator::new(&PatternProportions::of_built_in_robot());
-        for _ in 0..9000 {
+        for _ in 0..30_000 {
             slope.update(Vector2::new(0.6, 0.0), 1e-3);
             slope.advance(1e-3);
         }

@@ -209,7 +209,7 @@ impl PatternGenerator {
         let mut task = plan.task(model, vertical);
         execution.clearance.advance(&model.proportions, execution.tilt, task.swing_sole.position.xy(), KNOT);
         task.swing_sole.position.z += execution.clearance.of_sole();
-        task.hip_height += execution.clearance.of_hips();
+        task.hip_height += execution.clearance.of_hips() - model.lowered_on_slope(vertical);
         let knot = plan.realise(model, &task, execution.playback.newest(), vertical);
         execution.playback.push(knot);
     }

@@ -2,8 +2,8 @@
 
 use dynamics::{Kinematics, LegSolver, Tree};
 use gait::{NominalTable, Walk};
-use model::{LegReach, Link, Mechanism, Mirror};
-use nalgebra::Point3;
+use model::{GRAVITY, LegReach, Link, Mechanism, Mirror, Side};
+use nalgebra::{Point3, Vector2};
 
 use crate::knot::KNOT;
 use crate::lipm_residual::LipmResidual;
@@ -42,6 +42,8 @@ pub(crate) struct PatternModel {
     pub velocity: VelocityMap,
     /// Displacement of the centre of mass per displacement of the pelvis while both feet stay (-).
     pub com_per_pelvis: f64,
+    /// How far aside of a hip a foot is at most in a nominal step (m).
+    pub nominal_reach: f64,
     /// The weight shift with which it starts from a stand.
     pub weight_shift: WeightShift,
     /// Plans the centre of mass over the feet.
@@ -58,6 +60,8 @@ impl PatternModel {
         let reach = LegReach::of(mechanism);
         // A jerk is a length per cubed time, and times grow as the root of lengths.
         let weight = JERK_WEIGHT * reach.scale().powi(3);
+        let proportions = PatternProportions::of(mechanism);
+        let landed = Kinematics::fixed_base(&tree, &table.at(1.0).angles).sole_to_world(mechanism, Side::Left);
         let controller = |knots| PreviewController::new(lipm_residual.height_over_gravity, KNOT, knots, weight);
         Self {
             com_controller: controller(KNOTS_PREVIEWED),
@@ -66,7 +70,8 @@ impl PatternModel {
             mirror: *mirror,
             legs: LegSolver::new(mechanism),
             reach,
-            proportions: PatternProportions::of(mechanism),
+            nominal_reach: landed.translation.x.abs() / 2.0 + proportions.hip_offset_max,
+            proportions,
             velocity: VelocityMap::new(mechanism, table),
             weight_shift: WeightShift::AT_LEISURE,
             com_per_pelvis: com_per_pelvis(mechanism, &tree, table),
@@ -78,6 +83,22 @@ impl PatternModel {
     /// The modified half-step of a walk at a progress.
     pub(crate) fn modified(&self, walk: &Walk, progress: f64) -> ModifiedHalfStep {
         ModifiedHalfStep::new(&self.mechanism, &self.tree, &self.reach, walk, progress)
+    }
+
+    /// How far the centre of mass moves uphill, so that it stays above the soles along the vertical (m).
+    ///
+    /// * `vertical` – lean of the vertical over the floor (-)
+    pub(crate) fn uphill(&self, vertical: Vector2<f64>) -> Vector2<f64> {
+        vertical * (self.lipm_residual.height_over_gravity * GRAVITY)
+    }
+
+    /// How much lower the hips are on a slope (m): as they move uphill, the leg downhill gets longer.
+    ///
+    /// * `vertical` – lean of the vertical over the floor (-)
+    pub(crate) fn lowered_on_slope(&self, vertical: Vector2<f64>) -> f64 {
+        let leg = self.proportions.planned_leg_length_max;
+        let height = |reach: f64| (leg * leg - reach * reach).max(0.0).sqrt();
+        height(self.nominal_reach) - height(self.nominal_reach + self.uphill(vertical).norm())
     }
 }
 

@@ -3,7 +3,7 @@
 use dynamics::Kinematics;
 use gait::{RangeCheck, Walk};
 use interface::{Command, GaitChange, WalkPose};
-use model::{GRAVITY, Motion};
+use model::Motion;
 use nalgebra::Vector2;
 
 use crate::course::Course;
@@ -214,8 +214,7 @@ impl Plan {
     ///
     /// * `vertical` – lean of the vertical over the floor, in the walk frame (-)
     pub(crate) fn task(&self, model: &PatternModel, vertical: Vector2<f64>) -> WholeBodyTask {
-        let uphill = vertical * (model.lipm_residual.height_over_gravity * GRAVITY);
-        let correction = Vector2::new(self.correction[0].x, self.correction[1].x) + uphill;
+        let correction = Vector2::new(self.correction[0].x, self.correction[1].x) + model.uphill(vertical);
         self.dynamics_filter.task(&self.footsteps().feet.footprint, correction)
     }
 

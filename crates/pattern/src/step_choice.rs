@@ -81,7 +81,9 @@ impl StepProblem {
         let offset = Vector2::from_fn(|axis, _| {
             let [least, most] = self.offset_bounds.map(|bound| bound[axis]);
             let now = self.offset[axis];
-            let offset = wanted[axis].max(least).min(most).max(now - reachable).min(now + reachable);
+            // Where offset and rest together cost least.
+            let cheapest = wanted[axis] * (COST_OF_REST / (1.0 + COST_OF_REST));
+            let offset = cheapest.max(least).min(most).max(now - reachable).min(now + reachable);
             cost += offset * offset + COST_OF_REST * (wanted[axis] - offset).powi(2);
             offset
         });

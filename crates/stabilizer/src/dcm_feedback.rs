@@ -21,6 +21,13 @@ const ERROR_TIME_CONSTANT: f64 = 0.008;
 /// small for a moment (s).
 const RECOVERY: f64 = 1.0;
 
+/// Time constant with which the body is kept upright over a sole that tilts (s): as fast as the sole finds its place on
+/// uneven ground.
+const SOLE_TILT_TIME_CONSTANT: f64 = 0.03;
+
+/// Tilt of a sole that joints and ground explain by yielding (rad).
+const SOLE_TILT_OF_YIELDING: f64 = 0.02;
+
 /// Rotation of the body over the support ankle, about x and y (rad).
 pub type AnkleLean = Vector2<f64>;
 
@@ -57,6 +64,8 @@ pub struct DcmFeedback {
     step_error: LowPass<Vector2<f64>>,
     /// Time for which steps still answer the last large error (s).
     recovery_left: f64,
+    /// Filtered tilt of the support sole, about x and y (rad).
+    sole_tilt: LowPass<Vector2<f64>>,
     /// ZMP shift of foot damping control (m).
     foot_damping: Vector2<f64>,
     /// Angles and rates of the offsets, in support coordinates.
@@ -78,6 +87,7 @@ impl DcmFeedback {
             swing_axes: SWING_ANKLE.map(axis),
             step_error: LowPass::new(ERROR_TIME_CONSTANT, Vector2::zeros()),
             recovery_left: 0.0,
+            sole_tilt: LowPass::new(SOLE_TILT_TIME_CONSTANT, Vector2::zeros()),
             foot_damping: Vector2::zeros(),
             offsets: Motion::default(),
             lean: Vector2::zeros(),
@@ -113,9 +123,13 @@ impl DcmFeedback {
             };
             let zmp_error = estimated.zmp.map(|zmp| self.inside_sole(zmp_planned + shift) - zmp);
             self.damp_foot(zmp_error, dt);
-            let shift = shift + self.foot_damping;
-            // To push the ground further ahead (+x) the body leans back (−y); further left (+y) it leans right (+x).
-            self.lean = Vector2::new(shift.y, -shift.x) * self.lean_per_shift;
+            let foot = estimated.foot.filter(|_| !in_double_support).unwrap_or_default();
+            // A push tips the sole, too: turning the ankle further would only tip it more.
+            if foot.is_flat || !self.is_recovering() {
+                self.sole_tilt.update(foot.tilt, dt);
+            }
+            // The body stays upright, however the ground tilts the sole.
+            self.lean = self.lean_that_shifts(shift + self.foot_damping) - self.sole_tilt.value().map(beyond_yielding);
         }
         self.step_error.update(step_error, dt);
         let is_push = self.step_error.value().amax() > self.proportions.dcm_error_of_push;
@@ -128,6 +142,12 @@ impl DcmFeedback {
         for (joint, axis) in SWING_ANKLE.into_iter().zip(self.swing_axes) {
             self.follow(joint, axis.dot(&level), self.parameters.swing_ankle_time_constant, dt);
         }
+    }
+
+    /// The lean that shifts the ZMP (m): to push the ground further ahead (+x) the body leans back (−y), to push it
+    /// further left (+y) it leans right (+x).
+    fn lean_that_shifts(&self, zmp: Vector2<f64>) -> AnkleLean {
+        Vector2::new(zmp.y, -zmp.x) * self.lean_per_shift
     }
 
     /// Foot damping control (Kajita et al. 2010): a sole on uneven ground tilts the ankle, whose drive then pushes
@@ -147,16 +167,21 @@ impl DcmFeedback {
     /// * `heading` – of the new support foot against the former one: a unit vector in its coordinates
     pub fn change_support(&mut self, mirror: &Mirror, heading: Vector2<f64>) {
         self.offsets = self.offsets.mirrored(mirror);
-        self.lean = Vector2::zeros();
-        self.foot_damping = Vector2::zeros();
+        self.forget_ground();
         let aside = Vector2::new(-heading.y, heading.x);
         self.step_error = self.step_error.map(|error| Vector2::new(heading.dot(&error), -aside.dot(&error)));
     }
 
     /// Lets the lean fade: no foot is in contact, or no good measurement is known.
     pub fn release(&mut self) {
+        self.forget_ground();
+    }
+
+    /// Forgets what was found out about the ground under the support foot.
+    fn forget_ground(&mut self) {
         self.lean = Vector2::zeros();
         self.foot_damping = Vector2::zeros();
+        self.sole_tilt = LowPass::new(SOLE_TILT_TIME_CONSTANT, Vector2::zeros());
     }
 
     /// The shift of the desired ZMP (m): proportional to the error, and never beyond the sole.
@@ -220,12 +245,18 @@ impl DcmFeedback {
     }
 }
 
+/// The part of a sole's tilt beyond what yields in every walk (rad).
+fn beyond_yielding(tilt: f64) -> f64 {
+    tilt - tilt.clamp(-SOLE_TILT_OF_YIELDING, SOLE_TILT_OF_YIELDING)
+}
+
 #[cfg(test)]
 mod tests {
     use config::Config;
     use model::ComState;
 
     use super::*;
+    use crate::balance_state::SupportFoot;
 
     fn mechanism() -> Mechanism {
         Mechanism::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism.toml")).unwrap()
@@ -245,7 +276,7 @@ mod tests {
     /// A resting centre of mass at `x`, `y`, 0.9 m high.
     fn at(x: f64, y: f64) -> BalanceState {
         let com = ComState { position: Vector3::new(x, y, 0.9), velocity: Vector3::zeros() };
-        BalanceState { com, tilt: Vector2::zeros(), zmp: None }
+        BalanceState { com, tilt: Vector2::zeros(), zmp: None, foot: None }
     }
 
     /// The body rotated by a small angle: the swing ankle rotates the foot back.
@@ -292,6 +323,48 @@ mod tests {
             let shift = Vector2::new(-feedback.lean().y, feedback.lean().x) / feedback.lean_per_shift;
             assert!((shift + zmp).norm() < 1e-9, "{dt} s: {shift}");
         }
+    }
+
+    /// The oracle: statics of a rigid body on an ankle. A sole turned by a stone turns the body with it; once the ankle
+    /// has turned back by as much, the body is upright.
+    #[test]
+    fn body_over_a_sole_that_a_stone_tilts_stays_upright() {
+        let mut feedback = feedback();
+        let tilt = Vector2::new(0.05, -0.03);
+        for _ in 0..1000 {
+            let foot = Some(SupportFoot { tilt, is_flat: true });
+            let state = BalanceState { foot, zmp: Some(Vector2::zeros()), ..at(0.0, 0.0) };
+            feedback.update(&BalanceState { zmp: Some(Vector2::zeros()), ..at(0.0, 0.0) }, Some(&state), false, 1e-3);
+        }
+        let offsets = feedback.offsets().angles;
+        let at_ankle: Vector2<f64> =
+            std::iter::zip(SUPPORT_ANKLE, feedback.support_axes).map(|(joint, axis)| axis.xy() * offsets[joint]).sum();
+        // Less what is left to the yielding of joints.
+        let left = (at_ankle + tilt).norm();
+        assert!(left < 1.5 * SOLE_TILT_OF_YIELDING && left < tilt.norm() / 2.0, "{at_ankle}");
+    }
+
+    /// A push tips the sole over its edge, with the whole body on it: the ankle must not turn it further.
+    #[test]
+    fn ankle_leaves_a_sole_alone_that_a_push_tips() {
+        let lean = |foot| {
+            let mut feedback = feedback();
+            for _ in 0..200 {
+                let pushed = BalanceState { foot, ..at(0.0, -0.1) };
+                feedback.update(&at(0.0, 0.0), Some(&pushed), false, 1e-3);
+                if feedback.is_recovering() {
+                    break;
+                }
+            }
+            for _ in 0..200 {
+                feedback.update(&at(0.0, 0.0), Some(&BalanceState { foot, ..at(0.0, -0.1) }), false, 1e-3);
+            }
+            feedback.lean()
+        };
+        let tipped = Some(SupportFoot { tilt: Vector2::new(0.3, 0.0), is_flat: false });
+        let on_ground = Some(SupportFoot { tilt: Vector2::new(0.3, 0.0), is_flat: true });
+        assert!((lean(tipped) - lean(None)).norm() < 0.1);
+        assert!((lean(on_ground) - lean(None)).norm() > 0.25);
     }
 
     #[test]

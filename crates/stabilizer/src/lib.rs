@@ -24,7 +24,7 @@ mod proportions;
 mod support_frame_measurement;
 mod zmp_estimator;
 
-pub use balance_state::BalanceState;
+pub use balance_state::{BalanceState, SupportFoot};
 pub use com_estimator::estimate_com;
 pub use com_prediction::ComPrediction;
 pub use dcm_feedback::{AnkleLean, DcmFeedback, FeedbackParameters};

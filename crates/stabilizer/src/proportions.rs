@@ -34,7 +34,7 @@ pub(crate) struct StabilizerProportions {
 const DOUBLE_SUPPORT_ZMP_SHIFT_MAX: f64 = 0.03;
 /// Most of the room that the sole offers aside (m).
 const DCM_ERROR_OF_PUSH: f64 = 0.03;
-/// Errors on uneven ground mostly stay below it; a push exceeds it (m).
+/// Errors on uneven ground mostly stay below it; a strong push exceeds it (m).
 const DCM_ERROR_LARGE: f64 = 0.03;
 /// A third of the leg length: more is a glitch of a sensor, or no step can correct it (m).
 const DCM_ERROR_MAX: f64 = 0.3;

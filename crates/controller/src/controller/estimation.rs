@@ -2,8 +2,9 @@
 
 use interface::{Fault, Faults, Measurement};
 use model::ComState;
+use nalgebra::Vector2;
 use pattern::GaitPhase;
-use stabilizer::{BalanceState, ComPrediction, SupportFrameMeasurement, estimate_com};
+use stabilizer::{BalanceState, ComPrediction, SupportFoot, SupportFrameMeasurement, estimate_com};
 
 use super::Controller;
 use crate::sensor_consistency::{Expectation, ExpectedSupport};
@@ -59,10 +60,18 @@ impl Controller {
             self.com_prediction = ComPrediction::default();
             return None;
         }
-        // A sole that bears alone, and not on an edge, lies flat: it leans as the floor does.
-        if self.contact.margin > FLAT_MARGIN && !self.contact.in_contact[1] {
-            gait.update_ground_slope(measured.up_over_sole(&self.kinematics).xy(), dt);
+        // A sole that is not on an edge lies flat; bearing alone, it leans as the floor does.
+        let is_flat = self.contact.margin > FLAT_MARGIN;
+        let up = measured.up_over_sole(&self.kinematics).xy();
+        if is_flat && !self.contact.in_contact[1] {
+            gait.update_ground_slope(up, dt);
         }
+        self.support_foot = self.contact.in_contact[0].then(|| {
+            // Under the first sole the slope is not known yet: the plan leans first.
+            let is_known = gait.half_step().index > 0;
+            let beyond = if is_known { up - self.reference.vertical() } else { Vector2::zeros() };
+            SupportFoot { tilt: Vector2::new(beyond.y, -beyond.x), is_flat }
+        });
         self.tilt = self.reference.tilt(&measured.up_in_trunk, gait.sensed_vertical());
         let com = estimate_com(&self.tree, &self.kinematics, &measured, &self.contact);
         self.com_prediction.absorb(&com, &self.reference.com, dt);
@@ -74,7 +83,7 @@ impl Controller {
         let gait = self.pattern.gait();
         let stands = self.follows_walk() && gait.in_double_support();
         let Some(&com) = com.filter(|_| stands) else { return self.gravity.interrupt() };
-        let measured = BalanceState { com, tilt: self.tilt, zmp: self.contact.zmp };
+        let measured = BalanceState { com, tilt: self.tilt, zmp: self.contact.zmp, foot: self.support_foot };
         let planned = BalanceState::planned(&self.reference);
         if self.gravity.update(&measured, &planned, gait.half_step().support, dt) {
             faults.insert(Fault::OrientationAskew);
