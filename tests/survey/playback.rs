@@ -24,6 +24,7 @@ const FLIP: f64 = 0.06;
 /// A walk that nobody controls.
 pub(crate) struct Playback {
     /// Where it begins, in physical joints.
+    #[cfg(feature = "mujoco")]
     pub start: Motion,
     tree: Tree,
     walk: Walk,
@@ -57,6 +58,7 @@ impl Playback {
         let mut plan = ReferenceDynamics::new(mechanism, &tree, walk.mirror());
         plan.update(&tree, walk.mirror(), &lean.lean(&walk.motion()), PlannedContact::SupportFoot);
         Self {
+            #[cfg(feature = "mujoco")]
             start,
             feedback: DcmFeedback::new(mechanism, feedback),
             kinematics: Kinematics::default(),

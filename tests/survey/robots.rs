@@ -149,7 +149,7 @@ impl Imported {
         plant.unevenness.height = 0.002 * LegReach::of(&self.mechanism).scale();
         let walking = Walking::begin_by(&self.mechanism, Arc::clone(&self.nominal), &self.controller, &plant, seed);
         let mut watched = Watched::new(walking);
-        watched.walk_until(options.tiles);
+        watched.walk_until(options.tiles, None, Plant::step);
         watched.fall.is_some()
     }
 

@@ -2,12 +2,14 @@
 
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::{Walking, controller_parameters, plant_parameters};
-use interface::{GaitChange, Measurement, Setpoint};
+#[cfg(feature = "mujoco")]
+use interface::{Measurement, Setpoint};
+#[cfg(feature = "mujoco")]
 use model::Mechanism;
 use nalgebra::{Vector2, Vector3};
 #[cfg(feature = "mujoco")]
 use plant::Disturbances;
-use plant::{FloorShape, FloorStep, FrictionTiles, Payload, Plant, PlantParameters, Slope};
+use plant::{FloorRamp, FloorShape, FloorStep, FrictionTiles, Payload, Plant, PlantParameters, Slope};
 
 use crate::asked;
 use crate::cores::on_all_cores;
@@ -25,6 +27,7 @@ pub(crate) struct Options {
     #[arg(long)]
     hard: bool,
     /// Whose physics
+    #[cfg(feature = "mujoco")]
     #[arg(long, value_enum, default_value_t = Physics::Rust)]
     plant: Physics,
     /// Robots whose masses are wrong, each in its own way
@@ -33,17 +36,18 @@ pub(crate) struct Options {
 }
 
 /// Who computes the physics.
+#[cfg(feature = "mujoco")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Physics {
     /// Our plant
     Rust,
     /// MuJoCo
-    #[cfg(feature = "mujoco")]
     Mujoco,
 }
 
 /// What moves the plant on by a control period.
-type Moves = Box<dyn FnMut(&mut Plant, &Setpoint) -> Measurement>;
+#[cfg(feature = "mujoco")]
+type PlantStep = Box<dyn FnMut(&mut Plant, &Setpoint) -> Measurement>;
 
 /// Corners and edges of what must be walked, and its middle: `c` and `α` (deg).
 const COMMANDS: [(f64, f64); 9] = [
@@ -69,8 +73,8 @@ const COMMANDS_IN_HARD_WORLD: [(f64, f64); 9] = [
     (1.2, 0.0),
     (1.2, 15.0),
 ];
-/// Where the step lies (m).
-const STEP_FROM: f64 = 1.2;
+/// Where a step or a ramp begins (m).
+const EDGE_FROM: f64 = 1.2;
 /// When the walk leaves the nominal (s).
 const ENTRY: f64 = 2.0;
 
@@ -90,18 +94,15 @@ pub(crate) fn survey(options: &Options) -> bool {
         let (speed, turn) = commands[index % commands.len()];
         // In a harder world each walk has its own noise and its own floor.
         let seed = if options.hard { (index % commands.len()) as u64 } else { *seed };
-        let mut moves = options.plant.begin(&mechanism, &controller, parameters, seed);
+        #[cfg(feature = "mujoco")]
+        let mut step = options.plant.begin(&mechanism, &controller, parameters, seed);
+        #[cfg(not(feature = "mujoco"))]
+        let mut step = Plant::step;
         let walking = Walking::begin_with(&mechanism, &controller, parameters, seed);
-        let mut watched = Watched::begin_in(walking, &mut moves);
-        let mut walk_until = |watched: &mut Watched, seconds: f64, request: Option<&GaitChange>| {
-            watched.tick_in(request, &mut moves);
-            while watched.fall.is_none() && watched.walking.time() < seconds {
-                watched.tick_in(None, &mut moves);
-            }
-        };
-        walk_until(&mut watched, ENTRY, None);
+        let mut watched = Watched::begin_in(walking, &mut step);
+        watched.walk_until(ENTRY, None, &mut step);
         watched.begin_anew();
-        walk_until(&mut watched, options.seconds, Some(&asked::request(speed, turn, 0.0)));
+        watched.walk_until(options.seconds, Some(asked::request(speed, turn, 0.0)), &mut step);
         watched
     });
 
@@ -129,6 +130,7 @@ pub(crate) fn survey(options: &Options) -> bool {
     passed
 }
 
+#[cfg(feature = "mujoco")]
 impl Physics {
     /// Begins the walk of a robot.
     fn begin(
@@ -137,10 +139,9 @@ impl Physics {
         controller: &controller::Parameters,
         parameters: &PlantParameters,
         seed: u64,
-    ) -> Moves {
+    ) -> PlantStep {
         match self {
             Self::Rust => Box::new(Plant::step),
-            #[cfg(feature = "mujoco")]
             Self::Mujoco => {
                 let (start, nothing) = (start(mechanism, controller), Disturbances::default());
                 let mut outside = Outside::begin(mechanism, parameters, &nothing, &start, seed);
@@ -163,9 +164,21 @@ fn slope(ahead: f64, left: f64) -> impl Fn(&mut PlantParameters) {
 
 /// A step across the walk, near enough to be met by walks that turn, too.
 fn step(height: f64) -> impl Fn(&mut PlantParameters) {
-    let step = FloorStep { direction: Vector2::x(), from: STEP_FROM, height, length: f64::INFINITY };
+    let step = FloorStep { direction: Vector2::x(), from: EDGE_FROM, height, length: f64::INFINITY };
     move |parameters: &mut PlantParameters| {
         parameters.floor = FloorShape { steps: vec![step], ..FloorShape::default() };
+    }
+}
+
+/// A ramp without end, entered on foot.
+///
+/// * `rise` – its slope (deg)
+/// * `heading` – of its direction upward against that of the walk, to the left (deg)
+fn ramp(rise: f64, heading: f64) -> impl Fn(&mut PlantParameters) {
+    let (sin, cos) = heading.to_radians().sin_cos();
+    let ramp = FloorRamp { direction: Vector2::new(cos, sin), from: EDGE_FROM, rise: rise.to_radians(), length: 1e3 };
+    move |parameters: &mut PlantParameters| {
+        parameters.floor = FloorShape { ramps: vec![ramp], ..FloorShape::default() };
     }
 }
 
@@ -184,6 +197,10 @@ fn hard_variations() -> Vec<Variation> {
             vary(&format!("slope {degrees}° down ahead"), slope(-degrees, 0.0)),
             vary(&format!("slope {degrees}° up to the left"), slope(0.0, degrees)),
             vary(&format!("slope {degrees}° up to the right"), slope(0.0, -degrees)),
+            vary(&format!("ramp {degrees}° up ahead"), ramp(degrees, 0.0)),
+            vary(&format!("ramp {degrees}° down ahead"), ramp(-degrees, 0.0)),
+            vary(&format!("ramp {degrees}° up, 60° to the left"), ramp(degrees, 60.0)),
+            vary(&format!("ramp {degrees}° up, 60° to the right"), ramp(degrees, -60.0)),
         ]);
     }
     variations.extend([

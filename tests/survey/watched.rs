@@ -99,9 +99,17 @@ impl Watched {
     }
 
     /// Walks on until a time since the beginning, or until it falls.
-    pub(crate) fn walk_until(&mut self, seconds: f64) {
+    ///
+    /// * `request` – made in the first period
+    /// * `step` – moves the plant on
+    pub(crate) fn walk_until(
+        &mut self,
+        seconds: f64,
+        mut request: Option<GaitChange>,
+        mut step: impl FnMut(&mut Plant, &Setpoint) -> Measurement,
+    ) {
         while self.fall.is_none() && self.walking.time() < seconds {
-            self.tick(None);
+            self.tick_in(request.take().as_ref(), &mut step);
         }
     }
 }

@@ -238,30 +238,15 @@ impl Bristle {
         let yielding_normal = implicit(parameters.stiffness, parameters.damping);
         let yielding_tangential =
             if sticks { implicit(parameters.stiffness_tangential, parameters.damping_tangential) } else { 0.0 };
-        load.added_inertia += if up == Vector3::z() {
-            point_inertia(arm, Vector3::new(yielding_tangential, yielding_tangential, yielding_normal))
-        } else {
-            let across = up * up.transpose() * (yielding_normal - yielding_tangential);
-            inertia_of_mass(arm, Matrix3::from_diagonal_element(yielding_tangential) + across)
-        };
+        let onto_normal = up * up.transpose();
+        let onto_surface = Matrix3::identity() - onto_normal;
+        load.added_inertia += point_inertia(arm, onto_surface * yielding_tangential + onto_normal * yielding_normal);
     }
 }
 
-/// Spatial inertia of a point at `arm` from the right sole's origin (m), with a different mass along each world axis
-/// (kg).
-pub(crate) fn point_inertia(arm: Vector3<f64>, mass: Vector3<f64>) -> Matrix6<f64> {
-    let mut jacobian = Matrix3x6::zeros();
-    jacobian.fixed_view_mut::<3, 3>(0, 0).copy_from(&-arm.cross_matrix());
-    jacobian.fixed_view_mut::<3, 3>(0, 3).fill_with_identity();
-    let mut weighted = jacobian;
-    for (mut row, mass) in weighted.row_iter_mut().zip(mass.iter()) {
-        row *= *mass;
-    }
-    jacobian.tr_mul(&weighted)
-}
-
-/// The same with a mass that is a symmetric matrix (kg).
-fn inertia_of_mass(arm: Vector3<f64>, mass: Matrix3<f64>) -> Matrix6<f64> {
+/// Spatial inertia of a point at `arm` from the right sole's origin (m), with a mass that may depend on the direction:
+/// a symmetric matrix in world axes (kg).
+pub(crate) fn point_inertia(arm: Vector3<f64>, mass: Matrix3<f64>) -> Matrix6<f64> {
     let mut jacobian = Matrix3x6::zeros();
     jacobian.fixed_view_mut::<3, 3>(0, 0).copy_from(&-arm.cross_matrix());
     jacobian.fixed_view_mut::<3, 3>(0, 3).fill_with_identity();

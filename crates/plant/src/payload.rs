@@ -3,7 +3,7 @@
 use config::Table;
 use dynamics::{ArticulatedBody, LinkLoad};
 use model::{Mechanism, Wrench};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::contact::point_inertia;
 
@@ -32,7 +32,7 @@ impl Payload {
         LinkLoad {
             link: Mechanism::TRUNK,
             wrench: Wrench::at_point((body.gravity - centripetal) * self.mass, point),
-            added_inertia: point_inertia(point, Vector3::repeat(self.mass)),
+            added_inertia: point_inertia(point, Matrix3::from_diagonal_element(self.mass)),
         }
     }
 }

@@ -167,18 +167,14 @@ impl DcmFeedback {
     /// * `heading` – of the new support foot against the former one: a unit vector in its coordinates
     pub fn change_support(&mut self, mirror: &Mirror, heading: Vector2<f64>) {
         self.offsets = self.offsets.mirrored(mirror);
-        self.forget_ground();
+        self.release();
         let aside = Vector2::new(-heading.y, heading.x);
         self.step_error = self.step_error.map(|error| Vector2::new(heading.dot(&error), -aside.dot(&error)));
     }
 
-    /// Lets the lean fade: no foot is in contact, or no good measurement is known.
+    /// Lets the lean fade, and forgets the ground under the support foot: another foot bears, none does, or no good
+    /// measurement is known.
     pub fn release(&mut self) {
-        self.forget_ground();
-    }
-
-    /// Forgets what was found out about the ground under the support foot.
-    fn forget_ground(&mut self) {
         self.lean = Vector2::zeros();
         self.foot_damping = Vector2::zeros();
         self.sole_tilt = LowPass::new(SOLE_TILT_TIME_CONSTANT, Vector2::zeros());
