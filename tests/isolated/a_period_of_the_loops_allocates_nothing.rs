@@ -18,6 +18,7 @@ use node::controller_loop::run_controller;
 use node::cycle::{Clock, CycleTiming, Cycles};
 use node::interrupt::Interrupt;
 use node::plant_loop::run_plant;
+use node::push_bridge::PushBridge;
 use node::recorder;
 use node::request_bridge::RequestBridge;
 use node::request_queue::{CAPACITY, RequestQueue};
@@ -80,14 +81,16 @@ fn walk(ticks: u64) -> [Happened; 2] {
             happened
         });
         let plant = threads.spawn(move || {
-            let PlantPorts { setpoints, mut measurements } = of_plant;
+            let PlantPorts { setpoints, mut measurements, pushes } = of_plant;
+            let mut pushes = PushBridge::new(pushes, timing.clock).unwrap();
             let mut plant = Plant::new(mechanism, &plant_parameters(), &start, timing.rate.period_s(), 1);
             let (mut recorder, recorder_thread) =
                 recorder::of_plant(timing.clock, timing.rate, None, Announced::Faults).unwrap();
             let mut cycles = Cycles::new(timing, setpoints, "controller", Some(ticks), Interrupt::default());
             let step = |plant: &mut Plant, setpoint: &Setpoint| Ok(plant.step(setpoint));
             let happened = watch(|| {
-                let run = run_plant(&mut plant, step, &mut cycles, &mut measurements, &mut recorder, false);
+                let run =
+                    run_plant(&mut plant, step, &mut cycles, &mut measurements, &mut pushes, &mut recorder, false);
                 run.unwrap().ticks
             });
             drop(recorder);

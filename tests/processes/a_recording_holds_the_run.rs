@@ -58,6 +58,7 @@ fn a_recording_holds_every_message_request_and_configuration_file() {
             RunEvent::Setpoint(message) => set.push(*message),
             RunEvent::Report(message) => told.push(*message),
             RunEvent::Truth(message) => truth.push(*message),
+            RunEvent::Push(push) => panic!("nobody pushed: {push:?}"),
             RunEvent::Request(message) => requests.push((*number, *message)),
             RunEvent::Reply(message) => replies.push((*number, *message)),
         }

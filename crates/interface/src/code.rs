@@ -61,7 +61,7 @@ pub(crate) use codes;
 #[cfg(test)]
 mod tests {
     use super::Code;
-    use crate::{Fault, Intent, Lifetime, Mode, Reason, Source, Verdict};
+    use crate::{Fault, Intent, Lifetime, Mode, PushOutcome, Reason, Source, Verdict};
 
     fn there_and_back<T: Code + PartialEq + std::fmt::Debug>(all: &[T], code: impl Fn(T) -> u32) {
         for &variant in all {
@@ -79,5 +79,6 @@ mod tests {
         there_and_back(Reason::ALL, Reason::code);
         there_and_back(Mode::ALL, Mode::code);
         there_and_back(Fault::ALL, Fault::code);
+        there_and_back(PushOutcome::ALL, PushOutcome::code);
     }
 }

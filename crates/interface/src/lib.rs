@@ -6,6 +6,7 @@
 //! | [`Measurement`] | plant → controller | one sample of all sensors; nothing in it is trusted |
 //! | [`Request`] | operator → controller | new gait parameters or [`Intent`], from a [`Source`], for its [`Lifetime`] |
 //! | [`Reply`] | controller → operator | the [`Verdict`] on a request, what was granted, the [`Reason`] if less |
+//! | [`PushRequest`] | anyone → simulated plant | a push; [`PushReply`] tells whether it is given |
 //! | [`Report`] | controller → anyone | the state of the controller after a period: [`Mode`], ZMP, [`Faults`] |
 //!
 //! These are values only: how they travel is the crate `wire`'s affair. All quantities are SI (m, rad, N, s). Joints
@@ -23,6 +24,7 @@ mod lifetime;
 mod measurement;
 mod mode;
 mod period_timing;
+mod push_request;
 mod reason;
 mod reply;
 mod report;
@@ -44,6 +46,7 @@ pub use lifetime::{COMMAND_TIMEOUT_MAX, COMMAND_TIMEOUT_MIN, Lifetime};
 pub use measurement::Measurement;
 pub use mode::Mode;
 pub use period_timing::PeriodTiming;
+pub use push_request::{PushOutcome, PushReply, PushRequest};
 pub use reason::Reason;
 pub use reply::{ActiveLimit, ControlAuthority, Objection, Reply};
 pub use report::{AddedAngles, Report};

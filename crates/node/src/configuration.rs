@@ -147,10 +147,15 @@ impl ConfigFiles {
         }
     }
 
+    /// Reads the mechanism alone.
+    pub fn mechanism(&self, errors: &mut Errors) -> Option<Mechanism> {
+        errors.note(self.load(&self.mechanism_file()))
+    }
+
     /// Reads the mechanism and its nominal half-step, and checks that the one was made for the other.
     pub fn robot(&self, errors: &mut Errors) -> Option<Robot> {
         let (mechanism_file, nominal_file) = (self.mechanism_file(), self.nominal_file());
-        let mechanism = errors.note(self.load::<Mechanism>(&mechanism_file));
+        let mechanism = self.mechanism(errors);
         let nominal = errors.note(self.load_nominal(&nominal_file));
         let (mechanism, nominal) = (mechanism?, nominal?);
         if nominal.mechanism == mechanism.body_fingerprint {

@@ -3,8 +3,8 @@
 use controller::{AdmissionTiming, Tick};
 use interface::PeriodTiming;
 use model::JointVector;
-use plant::Truth;
-use record::{RunEvent, TickMessage, TruthMessage};
+use plant::{Push, Truth};
+use record::{PushMessage, RunEvent, TickMessage, TruthMessage};
 use wire::{MeasurementMessage, ReplyMessage, ReportMessage, RequestMessage, SetpointMessage};
 
 /// One tick of the controller's loop.
@@ -37,6 +37,17 @@ pub enum ControllerEvent {
     Request(u32, RequestMessage),
     /// The request with this number was answered.
     Reply(u32, ReplyMessage),
+}
+
+/// Everything that the plant's process records.
+// A ring has room for the largest everywhere.
+#[allow(clippy::large_enum_variant)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PlantEvent {
+    /// The plant has ticked.
+    Tick(PlantEntry),
+    /// A push has begun before the tick of this number.
+    Push(u64, Push),
 }
 
 /// One tick of the plant's loop.
@@ -96,4 +107,10 @@ impl PlantEntry {
             fallen: truth.has_fallen().into(),
         })
     }
+}
+
+/// What is recorded of a push that begins before a tick.
+pub(crate) fn push_event(tick: u64, push: &Push) -> RunEvent {
+    let Push { link, impulse, start, duration } = *push;
+    RunEvent::Push(PushMessage { tick, link: link.number().into(), start, duration, impulse: impulse.into() })
 }

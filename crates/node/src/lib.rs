@@ -20,6 +20,7 @@ mod nominal_check;
 mod overload;
 mod phase;
 pub mod plant_loop;
+pub mod push_bridge;
 pub mod realtime;
 pub mod recorder;
 pub mod replay;

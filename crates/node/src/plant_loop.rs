@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use interface::{Measurement, Setpoint};
+use interface::{Measurement, PushOutcome, PushReply, Setpoint};
 use model::JointVector;
 use plant::{Instability, Plant};
 use runtime::{Rate, now_ns};
@@ -10,8 +10,9 @@ use wire::{LatestWriter, MeasurementMessage, SetpointMessage};
 
 use crate::cycle::Cycles;
 use crate::engine::EngineError;
-use crate::entry::PlantEntry;
+use crate::entry::{PlantEntry, PlantEvent};
 use crate::error::NodeError;
+use crate::push_bridge::PushBridge;
 use crate::recorder::Recorder;
 
 /// Time between two records of the robot's true state.
@@ -57,7 +58,7 @@ impl Intervals {
 /// Runs until the cycles end, until the simulation has become unstable or, if `end_when_fallen`, until half a second
 /// after the robot has fallen. The robot is held where it is until a controller begins there: one that commands another
 /// posture would throw the robot over, and one that only keeps the joints where they are balances nothing. `step`
-/// computes the physics of one control period.
+/// computes the physics of one control period; `pushes` are on the robot as this process simulates it.
 ///
 /// # Errors
 /// In lockstep no setpoint has arrived for too long, or the physics cannot be computed.
@@ -66,7 +67,8 @@ pub fn run_plant(
     mut step: impl FnMut(&mut Plant, &Setpoint) -> Result<Measurement, EngineError>,
     cycles: &mut Cycles<SetpointMessage>,
     measurements: &mut LatestWriter<MeasurementMessage>,
-    recorder: &mut Recorder<PlantEntry>,
+    pushes: &mut PushBridge,
+    recorder: &mut Recorder<PlantEvent>,
     end_when_fallen: bool,
 ) -> Result<PlantRun, NodeError> {
     let mut run = PlantRun::default();
@@ -76,11 +78,22 @@ pub fn run_plant(
     let (mut began_ns, mut last_tick) = (None, None);
     let Intervals { truth_ticks, after_fall_ticks } = Intervals::at(cycles.rate());
     let mut next_truth = truth_ticks;
-    recorder.push(PlantEntry { tick: 0, angles: plant.robot.angles, truth: plant.truth() });
+    plant.disturbances.make_room();
+    recorder.push(PlantEvent::Tick(PlantEntry { tick: 0, angles: plant.robot.angles, truth: plant.truth() }));
     measurements.write(&MeasurementMessage::new(0, now_ns(), &plant.measure()));
 
     while let Some(cycle) = cycles.wait(|| ())? {
         let began_ns = *began_ns.get_or_insert_with(now_ns);
+        pushes.serve(|asked| {
+            let start = plant.time();
+            match plant.begin_push(asked) {
+                Ok(push) => {
+                    recorder.push(PlantEvent::Push(run.ticks, push));
+                    PushReply { outcome: PushOutcome::Begun, start }
+                }
+                Err(outcome) => PushReply { outcome, start },
+            }
+        });
         run.missed += cycle.missed;
 
         // A setpoint has the tick of the measurement that it answers.
@@ -114,7 +127,7 @@ pub fn run_plant(
             if truth.has_fallen() {
                 run.fell_at.get_or_insert(run.ticks);
             }
-            recorder.push(PlantEntry { tick: run.ticks, angles: plant.robot.angles, truth });
+            recorder.push(PlantEvent::Tick(PlantEntry { tick: run.ticks, angles: plant.robot.angles, truth }));
         }
         if end_when_fallen && run.fell_at.is_some_and(|tick| run.ticks >= tick + after_fall_ticks) {
             break;

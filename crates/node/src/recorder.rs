@@ -11,7 +11,7 @@ use wire::ReportPublisher;
 
 use crate::announcements::{Announced, Announcements};
 use crate::cycle::Clock;
-use crate::entry::{ControllerEvent, PlantEntry};
+use crate::entry::{ControllerEvent, PlantEvent, push_event};
 use crate::error::NodeError;
 use crate::tell::tell;
 
@@ -97,9 +97,16 @@ pub fn of_plant(
     rate: Rate,
     to: Option<(&Path, Provenance)>,
     announced: Announced,
-) -> Result<(Recorder<PlantEntry>, RecorderThread), NodeError> {
+) -> Result<(Recorder<PlantEvent>, RecorderThread), NodeError> {
     let (mut has_begun, mut has_fallen) = (false, false);
-    let take = move |writer: &mut RecordWriter, entry: PlantEntry| {
+    let take = move |writer: &mut RecordWriter, event: PlantEvent| {
+        let entry = match event {
+            PlantEvent::Tick(entry) => entry,
+            PlantEvent::Push(tick, push) => {
+                writer.tick = tick;
+                return writer.write(tick as u32, &[push_event(tick, &push)]);
+            }
+        };
         if announced == Announced::All {
             if entry.tick > 0 && !std::mem::replace(&mut has_begun, true) {
                 tell("plant: follows the controller");

@@ -102,7 +102,7 @@ pub fn replay(run: &Path) -> Result<ReplayOutcome, NodeError> {
                     let apart = recorded.angles.iter().zip(&replayed.angles).map(|(one, other)| (one - other).abs());
                     outcome.angle_difference_max = apart.fold(outcome.angle_difference_max, f64::max);
                 }
-                RunEvent::Reply(_) | RunEvent::Report(_) | RunEvent::Truth(_) => {}
+                RunEvent::Reply(_) | RunEvent::Report(_) | RunEvent::Truth(_) | RunEvent::Push(_) => {}
             }
         }
         outcome.cut = outcome.cut.or(recording.cut());

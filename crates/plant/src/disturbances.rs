@@ -62,6 +62,27 @@ enum Kind {
     Delay,
 }
 
+impl Disturbances {
+    /// Most pushes of a run at a time, those of the script that are still to come included, beyond which none is added
+    /// while it runs.
+    pub const PUSHES_MAX: usize = 64;
+
+    /// Makes room for pushes that are added while the run goes on, so that adding one allocates nothing.
+    pub fn make_room(&mut self) {
+        self.pushes.reserve(Self::PUSHES_MAX);
+    }
+
+    /// Adds a push, in place of those that are over. Whether there was room.
+    pub(crate) fn add(&mut self, push: Push) -> bool {
+        self.pushes.retain(|earlier| earlier.start + earlier.duration > push.start);
+        let has_room = self.pushes.len() < Self::PUSHES_MAX;
+        if has_room {
+            self.pushes.push(push);
+        }
+        has_room
+    }
+}
+
 impl Config for Disturbances {
     fn read(root: &Table) -> Self {
         Self {

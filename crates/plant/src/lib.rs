@@ -5,6 +5,7 @@
 //! stiffness to the articulated inertias and lets a stiff sole be integrated at half a millisecond. The plant has no
 //! clock: the caller decides when a period begins.
 
+mod asked_push;
 mod contact;
 mod disturbances;
 mod external_engine;

@@ -9,6 +9,7 @@
 //! | `/reports` | the reports published to observers | tick |
 //! | `/ticks` | the inputs of each tick of the controller beside the measurement: [`TickMessage`] | tick |
 //! | `/truth` | the true state of the simulated robot, every few ticks: [`TruthMessage`] | tick |
+//! | `/pushes` | pushes on the simulated robot that were asked for while it ran: [`PushMessage`] | tick |
 //!
 //! The time of a message is that of the run: its tick times the control period, so that the messages of both processes
 //! share one timeline. Its *number* above is MCAP's `sequence`. The configuration files of the run are attachments,
@@ -37,7 +38,7 @@ mod writer;
 
 pub use error::RecordError;
 pub use merge::merge;
-pub use message::{TickMessage, TruthMessage};
+pub use message::{PushMessage, TickMessage, TruthMessage};
 pub use new_file::{set_aside, set_folder_aside};
 pub use provenance::{Metadata, Provenance};
 pub use reader::{Item, Recording, TimedEvent, files_of, provenance_of};

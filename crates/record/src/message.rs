@@ -45,5 +45,22 @@ pub struct TruthMessage {
     pub fallen: u64,
 }
 
+/// A push on the simulated robot that was asked for while it ran. It has the numbers of a `[[push]]` of a script.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct PushMessage {
+    /// Number of the plant's tick before which it began.
+    pub tick: u64,
+    /// Number of the joint that carries the pushed link.
+    pub link: u64,
+    /// When it began, since the plant's start (s).
+    pub start: f64,
+    /// How long it lasts (s).
+    pub duration: f64,
+    /// Force times duration, in world axes (N·s).
+    pub impulse: [f64; 3],
+}
+
 wire_layout!(TickMessage as "halfstep.Tick.v1", { tick, periods, dt, request, returned, speed_in_force });
 wire_layout!(TruthMessage as "halfstep.Truth.v1", { tick, right_sole, angles, loads, com, zmp, trunk_tilt, fallen });
+wire_layout!(PushMessage as "halfstep.Push.v1", { tick, link, start, duration, impulse });

@@ -2,7 +2,7 @@
 
 use wire::{Layout, MeasurementMessage, ReplyMessage, ReportMessage, RequestMessage, SetpointMessage, WireLayout};
 
-use crate::{TickMessage, TruthMessage};
+use crate::{PushMessage, TickMessage, TruthMessage};
 
 macro_rules! events {
     ($($(#[$doc:meta])* $channel:ident($message:ident) = $topic:literal,)+) => {
@@ -79,4 +79,6 @@ events! {
     Report(ReportMessage) = "/reports",
     /// The true state of the simulated robot.
     Truth(TruthMessage) = "/truth",
+    /// A push that was asked for while the plant ran.
+    Push(PushMessage) = "/pushes",
 }

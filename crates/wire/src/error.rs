@@ -179,6 +179,32 @@ pub enum RequestError {
     Transport(#[from] TransportError),
 }
 
+/// Why a push was not answered.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PushError {
+    /// The instance has no plant that can be pushed.
+    #[error("no simulated robot that can be pushed is running on instance `{instance}`")]
+    NoPlant {
+        /// The instance's name.
+        instance: String,
+    },
+    /// The plant has ended meanwhile.
+    #[error("the plant has ended without an answer")]
+    Dropped,
+    /// The plant is running but has not replied in time.
+    #[error("the plant did not answer within {seconds} s")]
+    TimedOut {
+        /// The timeout (s), as text.
+        seconds: String,
+    },
+    /// There is no connection to the plant.
+    #[error(transparent)]
+    Connect(ConnectError),
+    /// The shared memory failed.
+    #[error(transparent)]
+    Transport(#[from] TransportError),
+}
+
 /// The shared memory failed while connected: it was removed by force, or memory has run out.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("cannot {action}: {cause}")]

@@ -50,6 +50,8 @@ impl fmt::Display for InstanceName {
 
 /// The clock of an instance unless it is set otherwise.
 const REALTIME: &str = "realtime";
+/// The clock of processes that wait for each other's messages.
+pub(crate) const LOCKSTEP: &str = "lockstep";
 /// The start posture of an instance unless it is set otherwise.
 const STRIDE: &str = "stride";
 
@@ -118,7 +120,7 @@ impl Instance {
 
     /// The same instance for a controller or plant in lockstep instead of in real time.
     pub fn with_lockstep(self, lockstep: bool) -> Self {
-        Self { clock: if lockstep { "lockstep" } else { REALTIME }, ..self }
+        Self { clock: if lockstep { LOCKSTEP } else { REALTIME }, ..self }
     }
 
     /// The same instance for a controller or plant that begins in a stand instead of in stride.

@@ -12,7 +12,7 @@ use iceoryx2::port::writer::{EntryHandleMut, EntryHandleMutError, Writer, Writer
 use iceoryx2::prelude::{MessagingPattern, Node};
 use iceoryx2::service::port_factory::blackboard;
 
-use crate::service_contract::ServiceContract;
+use crate::service_contract::{ServiceContract, is_lockstep, mechanism};
 use crate::shared_memory::Role;
 use crate::{ConnectError, Instance, Ipc, Latest, NEVER_WRITTEN};
 
@@ -56,6 +56,19 @@ impl<'a> LatestService<'a> {
             },
         )?;
         Ok(Self { contract, blackboard })
+    }
+
+    /// A reader of the service for a process that is neither side of it, the fingerprint of the robot, and whether both
+    /// sides are in lockstep.
+    pub(crate) fn watch<M: Latest>(
+        instance: &'a Instance,
+        node: &Node<Ipc>,
+        service: &'static str,
+    ) -> Result<(LatestReader<M>, u64, bool), ConnectError> {
+        let contract = ServiceContract::new(instance, service, MessagingPattern::Blackboard, None);
+        let blackboard = contract.open(|| node.service_builder(&contract.name).blackboard_opener::<Slot>().open())?;
+        let (mechanism, is_lockstep) = (mechanism(&blackboard), is_lockstep(&blackboard));
+        Ok((Self { contract, blackboard }.reader()?, mechanism, is_lockstep))
     }
 
     /// Compares what both sides must begin with: for a robot that has not moved yet.

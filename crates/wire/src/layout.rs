@@ -2,7 +2,10 @@
 
 use iceoryx2::prelude::ZeroCopySend;
 
-use crate::{MeasurementMessage, ReplyMessage, ReportMessage, RequestMessage, SetpointMessage};
+use crate::{
+    MeasurementMessage, PushReplyMessage, PushRequestMessage, ReplyMessage, ReportMessage, RequestMessage,
+    SetpointMessage,
+};
 
 /// The layout of a message in shared memory.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -114,6 +117,9 @@ wire_layout!(ReportMessage as type_name::<ReportMessage>(), {
     destination_turn, faults, missed, compute_ns,
 });
 
+wire_layout!(PushRequestMessage as type_name::<PushRequestMessage>(), { link, impulse, duration });
+wire_layout!(PushReplyMessage as type_name::<PushReplyMessage>(), { outcome, start });
+
 /// The layouts of all messages.
 pub fn layouts() -> Vec<Layout> {
     vec![
@@ -122,6 +128,8 @@ pub fn layouts() -> Vec<Layout> {
         RequestMessage::layout(),
         ReplyMessage::layout(),
         ReportMessage::layout(),
+        PushRequestMessage::layout(),
+        PushReplyMessage::layout(),
     ]
 }
 

@@ -7,8 +7,8 @@ use crate::latest::LatestService;
 use crate::leftovers::{clean_up, sweep_others};
 use crate::shared_memory::Role;
 use crate::{
-    ConnectError, Instance, Ipc, LatestReader, LatestWriter, MeasurementMessage, ReportPublisher, ReportSubscriber,
-    RequestClient, RequestServer, SetpointMessage,
+    ConnectError, Instance, Ipc, LatestReader, LatestWriter, MeasurementMessage, PushServer, ReportPublisher,
+    ReportSubscriber, RequestClient, RequestServer, SetpointMessage,
 };
 
 /// The controller's ports. They may move to different threads: setpoints and measurements to the control loop, requests
@@ -68,6 +68,8 @@ pub struct PlantPorts {
     pub setpoints: LatestReader<SetpointMessage>,
     /// Measurements, to the controller.
     pub measurements: LatestWriter<MeasurementMessage>,
+    /// Requests to push the simulated robot, and the replies to them.
+    pub pushes: PushServer,
 }
 
 impl PlantPorts {
@@ -83,7 +85,8 @@ impl PlantPorts {
         let setpoint = LatestService::open::<SetpointMessage>(instance, &node, SETPOINT, mechanism)?;
         let measurement = LatestService::open::<MeasurementMessage>(instance, &node, MEASUREMENT, mechanism)?;
         check_start(&setpoint)?;
-        let ports = Self { measurements: measurement.writer(Role::Plant)?, setpoints: setpoint.reader()? };
+        let (measurements, setpoints) = (measurement.writer(Role::Plant)?, setpoint.reader()?);
+        let ports = Self { measurements, setpoints, pushes: PushServer::connect(instance, &node)? };
         instance.take_room(&lock, Role::Plant)?;
         Ok(ports)
     }
@@ -127,6 +130,36 @@ impl ObserverPorts {
         let lock = instance.connect_lock_if_there()?;
         let node = join(instance, &lock, Role::Observer)?;
         let ports = Self { reports: ReportSubscriber::connect(instance, &node)? };
+        instance.take_room(&lock, Role::Observer)?;
+        Ok(ports)
+    }
+}
+
+/// The ports of a process that looks on: what the controller reports, and what its plant measures.
+#[derive(Debug)]
+pub struct SpectatorPorts {
+    /// Reports, from the controller.
+    pub reports: ReportSubscriber,
+    /// Measurements, from the plant.
+    pub measurements: LatestReader<MeasurementMessage>,
+    /// Fingerprint of the robot that joint numbers refer to.
+    pub mechanism: u64,
+    /// Whether controller and plant wait for each other, so that their periods have no length by the wall clock.
+    pub is_lockstep: bool,
+}
+
+impl SpectatorPorts {
+    /// Connects this process as a spectator of an instance, whatever its robot, rate and clock. It also receives what
+    /// any later controller and plant of the instance send.
+    ///
+    /// # Errors
+    /// No controller is running, or one of another version, or too many observers are connected.
+    pub fn connect(instance: &Instance) -> Result<Self, ConnectError> {
+        let lock = instance.connect_lock_if_there()?;
+        let node = join(instance, &lock, Role::Observer)?;
+        let (measurements, mechanism, is_lockstep) = LatestService::watch(instance, &node, MEASUREMENT)?;
+        let reports = ReportSubscriber::connect(instance, &node)?;
+        let ports = Self { reports, measurements, mechanism, is_lockstep };
         instance.take_room(&lock, Role::Observer)?;
         Ok(ports)
     }

@@ -8,6 +8,7 @@ use iceoryx2::prelude::{AttributeSet, AttributeSpecifier, MessagingPattern, Port
 use iceoryx2::service::attribute::{AttributeKey, AttributeValue};
 use iceoryx2::service::service_hash::ServiceHash;
 
+use crate::instance::LOCKSTEP;
 use crate::shared_memory::Role;
 use crate::{ConnectError, DEFAULT_RATE_HZ, Instance, Ipc};
 
@@ -20,6 +21,8 @@ const RETRY_INTERVAL: Duration = Duration::from_millis(5);
 
 /// Attribute key of the control rate.
 const RATE: &str = "rate_hz";
+/// Attribute key of the robot's fingerprint.
+const MECHANISM: &str = "mechanism";
 /// Attribute key of what begins a period: `realtime` or `lockstep`.
 const CLOCK: &str = "clock";
 /// Attribute key of the posture in which the robot begins: `stride` or `stand`.
@@ -30,6 +33,19 @@ pub(crate) fn rate_hz(service: &impl PortFactory) -> u32 {
     let value = service.attributes().key_value(&attribute_key(RATE), 0);
     // Every controller of this protocol version states it.
     value.and_then(|value| value.to_string().parse().ok()).unwrap_or(DEFAULT_RATE_HZ)
+}
+
+/// The fingerprint of the robot for which a service was created; 0 if it states none.
+pub(crate) fn mechanism(service: &impl PortFactory) -> u64 {
+    let value = service.attributes().key_value(&attribute_key(MECHANISM), 0).map(ToString::to_string);
+    let digits = value.as_deref().and_then(|value| value.strip_prefix("0x"));
+    digits.and_then(|digits| u64::from_str_radix(digits, 16).ok()).unwrap_or(0)
+}
+
+/// Whether a service was created for processes in lockstep.
+pub(crate) fn is_lockstep(service: &impl PortFactory) -> bool {
+    let value = service.attributes().key_value(&attribute_key(CLOCK), 0);
+    value.is_some_and(|clock| *clock == attribute_value(LOCKSTEP))
 }
 
 /// A service of an instance, with the attributes on which both sides must agree.
@@ -51,7 +67,7 @@ impl<'a> ServiceContract<'a> {
         mechanism: Option<u64>,
     ) -> Self {
         let mut attributes = vec![("protocol", instance.protocol().to_string())];
-        attributes.extend(mechanism.map(|fingerprint| ("mechanism", format!("{fingerprint:#018x}"))));
+        attributes.extend(mechanism.map(|fingerprint| (MECHANISM, format!("{fingerprint:#018x}"))));
         Self { instance, pattern, name: instance.service_name(service), attributes, initial: Vec::new() }
     }
 

@@ -5,7 +5,10 @@
 
 use std::mem::{align_of, offset_of, size_of};
 
-use wire::{MeasurementMessage, ReplyMessage, ReportMessage, RequestMessage, SetpointMessage};
+use wire::{
+    MeasurementMessage, PushReplyMessage, PushRequestMessage, ReplyMessage, ReportMessage, RequestMessage,
+    SetpointMessage,
+};
 
 /// Checks size and alignment, each field's offset, and that fields follow each other without a gap.
 macro_rules! assert_layout {
@@ -29,6 +32,12 @@ fn setpoint_message_has_a_fixed_layout() {
     assert_layout!(SetpointMessage, 496, {
         tick @ 0 + 8, time_ns @ 8 + 8, angles @ 16 + 160, rates @ 176 + 160, feed_forward @ 336 + 160,
     });
+}
+
+#[test]
+fn push_messages_have_a_fixed_layout() {
+    assert_layout!(PushRequestMessage, 40, { link @ 0 + 8, impulse @ 8 + 24, duration @ 32 + 8 });
+    assert_layout!(PushReplyMessage, 16, { outcome @ 0 + 8, start @ 8 + 8 });
 }
 
 #[test]

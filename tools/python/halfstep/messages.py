@@ -112,6 +112,14 @@ class Fault(IntFlag):
     DEADLINE_MISSED = 512  # a deadline was missed
 
 
+class PushOutcome(IntEnum):
+    BEGUN = 0  # pushed
+    INVALID = 1  # a push needs a link with a body, a finite impulse and a duration
+    OUT_OF_RANGE = 2  # a push must last 1 ms to 10 s and have at most 10000 N·s
+    TOO_MANY = 3  # too many pushes act at the same time
+    EXTERNAL_ENGINE = 4  # another program computes the physics: it takes pushes from --disturbances only
+
+
 class Setpoint(Message):
     """`halfstep.Setpoint.v1`, 496 bytes."""
 
@@ -355,3 +363,39 @@ class Report(Message):
     def type_name() -> str:
         """What shared memory calls it."""
         return "halfstep.Report.v4"
+
+
+class PushRequest(Message):
+    """`halfstep.PushRequest.v1`, 40 bytes."""
+
+    link: int
+    impulse: Array[c_double]
+    duration: float
+
+    _fields_ = [
+        ("link", c_uint64),
+        ("impulse", c_double * 3),
+        ("duration", c_double),
+    ]
+
+    @staticmethod
+    def type_name() -> str:
+        """What shared memory calls it."""
+        return "halfstep.PushRequest.v1"
+
+
+class PushReply(Message):
+    """`halfstep.PushReply.v1`, 16 bytes."""
+
+    outcome: int
+    start: float
+
+    _fields_ = [
+        ("outcome", c_uint64),
+        ("start", c_double),
+    ]
+
+    @staticmethod
+    def type_name() -> str:
+        """What shared memory calls it."""
+        return "halfstep.PushReply.v1"

@@ -1,6 +1,6 @@
 //! `halfstep plant`: the process that is the robot.
 
-use interface::Setpoint;
+use interface::{PushOutcome, Setpoint};
 use std::path::{Path, PathBuf};
 
 use gait::{Robot, Start, Walk};
@@ -11,6 +11,7 @@ use node::cycle::Cycles;
 use node::engine::{self, EngineSetup, ExternalEngine};
 use node::interrupt::Interrupt;
 use node::plant_loop::run_plant;
+use node::push_bridge::PushBridge;
 use node::summary::PlantSummary;
 use node::tell::tell;
 use node::{realtime, recorder};
@@ -83,13 +84,18 @@ impl PlantArgs {
 
         let instance = self.instance.of_loop(realtime.rate, &self.runs)?;
         let _leftovers = instance.leftovers();
-        let PlantPorts { setpoints, mut measurements } = PlantPorts::connect(&instance, robot.mechanism.fingerprint)?;
+        let PlantPorts { setpoints, mut measurements, pushes } =
+            PlantPorts::connect(&instance, robot.mechanism.fingerprint)?;
         let clock = self.runs.clock();
         let field = parameters.floor.height_field.as_ref();
         let attached = urdf.map(|text| (URDF.to_owned(), text)).into_iter();
         let attached = attached.chain(field.map(|field| (field.file.clone(), field.text.to_string())));
         let to = self.recorded(&files, attached.collect(), realtime.rate, robot.mechanism.fingerprint)?;
         realtime.keep_off_the_loop(clock);
+        let mut pushes = PushBridge::new(pushes, clock)?;
+        if outside.is_some() {
+            pushes = pushes.refusing(PushOutcome::ExternalEngine);
+        }
         let (mut recorder, recorder_thread) = recorder::of_plant(clock, realtime.rate, to, self.child.announced())?;
         let ticks = self.runs.ticks(realtime.rate);
         let mut cycles = Cycles::new(realtime.timing(clock), setpoints, "controller", ticks, interrupt).following();
@@ -106,7 +112,15 @@ impl PlantArgs {
             None => Ok(plant.step(setpoint)),
             Some(engine) => engine.step(plant, setpoint),
         };
-        let run = run_plant(&mut plant, step, &mut cycles, &mut measurements, &mut recorder, self.end_when_fallen);
+        let run = run_plant(
+            &mut plant,
+            step,
+            &mut cycles,
+            &mut measurements,
+            &mut pushes,
+            &mut recorder,
+            self.end_when_fallen,
+        );
         drop(recorder);
         let recorded = recorder_thread.finish();
         let run = run?;

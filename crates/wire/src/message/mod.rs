@@ -11,6 +11,7 @@
 mod fault;
 mod flat_places;
 mod measurement;
+mod push;
 mod reply;
 mod report;
 mod request;
@@ -22,6 +23,7 @@ use iceoryx2::prelude::ZeroCopySend;
 
 pub use fault::MessageFault;
 pub use measurement::MeasurementMessage;
+pub use push::{PushReplyMessage, PushRequestMessage};
 pub use reply::ReplyMessage;
 pub use report::ReportMessage;
 pub use request::RequestMessage;
@@ -77,7 +79,7 @@ mod tests {
                     assert!($message::decode(&bytes[..cut.min(bytes.len() - 1)]).is_none());
                 )+};
             }
-            check!(SetpointMessage, ReportMessage, RequestMessage, ReplyMessage);
+            check!(SetpointMessage, ReportMessage, RequestMessage, ReplyMessage, PushRequestMessage, PushReplyMessage);
             let measurement = MeasurementMessage::decode(&bytes_of::<MeasurementMessage>(&words));
             measurement.expect("as long as its layout says").measurement();
         }

@@ -1,11 +1,12 @@
-//! All four services carry their messages, in either start order, and no file is left at the end.
+//! All services carry their messages, in either start order, and no file is left at the end.
 
 mod common;
 
 use common::{LONG, MECHANISM, eventually, files_of, measurement, own_instance, report, request, setpoint};
 use interface::{Command, Reason, Reply};
 use wire::{
-    ConnectError, ControllerPorts, MAX_UNANSWERED, ObserverPorts, OperatorPorts, PlantPorts, ReplyMessage, RequestError,
+    ConnectError, ControllerPorts, MAX_UNANSWERED, ObserverPorts, OperatorPorts, PlantPorts, PushClient, PushError,
+    PushReplyMessage, PushRequestMessage, ReplyMessage, RequestError, SpectatorPorts,
 };
 
 #[test]
@@ -33,6 +34,48 @@ fn readers_get_the_latest_setpoint_and_measurement() {
             assert_eq!(plant.setpoints.latest(), Some(setpoint(2 * tick + 1)), "the newest wins");
         }
     }
+}
+
+#[test]
+fn a_spectator_sees_measurements_and_reports_of_any_robot() {
+    let (instance, _leftovers) = own_instance();
+    let instance = instance.with_rate_hz(250).with_lockstep(true);
+    let mut controller = ControllerPorts::connect(&instance, MECHANISM).unwrap();
+    let mut plant = PlantPorts::connect(&instance, MECHANISM).unwrap();
+    // It knows neither the robot nor the rate nor the clock.
+    let name = instance.clone().with_rate_hz(1000).with_lockstep(false);
+    let mut spectator = SpectatorPorts::connect(&name).unwrap();
+    assert_eq!((spectator.mechanism, spectator.is_lockstep), (MECHANISM, true));
+    assert_eq!(spectator.reports.rate_hz(), 250);
+    assert_eq!(spectator.measurements.latest(), None);
+    plant.measurements.write(&measurement(3));
+    controller.reports.publish(&report(3)).unwrap();
+    assert_eq!(spectator.measurements.latest(), Some(measurement(3)));
+    assert_eq!(spectator.reports.next_report().unwrap().map(|report| report.tick), Some(3));
+}
+
+#[test]
+fn each_push_gets_its_own_reply() {
+    let (instance, _leftovers) = own_instance();
+    assert!(matches!(PushClient::connect(&instance), Err(PushError::NoPlant { .. })));
+    let mut plant = PlantPorts::connect(&instance, MECHANISM).unwrap();
+    let clients = [0, 1].map(|_| PushClient::connect(&instance).unwrap());
+    let push = |link| PushRequestMessage { link, impulse: [1.0, 2.0, 3.0], duration: 0.1 };
+    std::thread::scope(|threads| {
+        for (client, link) in clients.iter().zip([3, 5]) {
+            threads.spawn(move || {
+                let reply = client.ask(&push(link), LONG).unwrap();
+                assert_eq!(reply, PushReplyMessage { outcome: 0, start: link as f64 });
+            });
+        }
+        for _ in 0..2 {
+            let (asked, responder) = eventually("a push", || plant.pushes.next_push().unwrap());
+            assert_eq!(asked, push(asked.link));
+            assert!(responder.reply(&PushReplyMessage { outcome: 0, start: asked.link as f64 }));
+        }
+    });
+    drop(plant);
+    assert!(matches!(clients[0].ask(&push(1), LONG), Err(PushError::NoPlant { .. })));
 }
 
 #[test]
