@@ -33,7 +33,8 @@ pub(crate) struct Halfstep {
     #[command(subcommand)]
     command: HalfstepCommand,
     /// Print results as JSON on stdout, and errors as {"error": …}, too
-    #[arg(long, global = true)]
+    // Left out, its place in each help is the number of subcommands.
+    #[arg(long, global = true, display_order = 14)]
     json: bool,
 }
 
