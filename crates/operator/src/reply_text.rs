@@ -179,11 +179,11 @@ fn granted_text(request: &Request, reply: &Reply) -> String {
 /// A velocity, and by which steps it is walked.
 fn velocity_text(reply: &Reply) -> String {
     let SteadyWalk { step_ahead, step_aside, velocity } = &reply.walk;
+    // Rounded first, so that a small negative number is not printed as `-0.000`.
+    let [ahead, left] = [velocity.ahead, velocity.left].map(|speed| (speed * 1e3).round() / 1e3 + 0.0);
+    let turn = (velocity.turn.to_degrees() * 10.0).round() / 10.0 + 0.0;
     format!(
-        "vx {:.3} m/s, vy {:.3} m/s, wz {:.1} °/s (speed {:.2}, steps of {}, {} aside)",
-        velocity.ahead + 0.0,
-        velocity.left + 0.0,
-        velocity.turn.to_degrees() + 0.0,
+        "vx {ahead:.3} m/s, vy {left:.3} m/s, wz {turn:.1} °/s (speed {:.2}, steps of {}, {} aside)",
         reply.granted.speed,
         metres(*step_ahead),
         metres(*step_aside)
@@ -203,7 +203,7 @@ fn rounded(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use expect_test::expect_file;
-    use interface::{Command, Fault, GaitChange, Intent, LatchedFault, Source};
+    use interface::{Command, Fault, GaitChange, Intent, LatchedFault, Source, WalkVelocity};
     use model::Joint;
 
     use super::*;
@@ -341,5 +341,14 @@ mod tests {
             reply_text(&request, &reply(Verdict::Refused, Reason::CannotRestart)),
             "refused: the uncompensated gait cannot restart from a stand: restart the controller"
         );
+    }
+
+    #[test]
+    fn a_velocity_that_is_nearly_zero_has_no_sign() {
+        let velocity = WalkVelocity { ahead: 0.3, left: -4e-4, turn: -1e-4 };
+        let request = Request { velocity: Some(velocity), ..Request::new(Source::Console) };
+        let walk = SteadyWalk { velocity, ..SteadyWalk::ZERO };
+        let text = reply_text(&request, &Reply { walk, ..reply(Verdict::Accepted, Reason::None) });
+        assert!(text.starts_with("accepted: vx 0.300 m/s, vy 0.000 m/s, wz 0.0 °/s"), "{text}");
     }
 }
