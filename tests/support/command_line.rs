@@ -214,6 +214,12 @@ impl Running {
         rustix::process::kill_process(pid, rustix::process::Signal::CONT).expect("it is still there");
     }
 
+    /// Halts it for good.
+    pub fn halt(&self) {
+        let pid = rustix::process::Pid::from_child(&self.child);
+        rustix::process::kill_process(pid, rustix::process::Signal::STOP).expect("it is still there");
+    }
+
     /// Whether it still runs.
     pub fn is_running(&mut self) -> bool {
         matches!(self.child.try_wait(), Ok(None))

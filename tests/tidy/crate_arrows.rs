@@ -19,6 +19,7 @@ pub const BASE: &str = "interface model signal config";
 pub const ARROWS: Table<'_> = &[
     ("cli", "ALL"),
     ("bench", "ALL"),
+    ("view", "BASE operator record wire runtime dynamics"),
     ("node", "BASE controller plant wire runtime record interchange gait dynamics"),
     ("operator", "BASE wire runtime"),
     ("paper", "BASE plots gait dynamics"),

@@ -29,6 +29,7 @@ pub const CLOCK: Restriction<'_> = Restriction {
         ("crates/node/src/plant_loop.rs", "how long a period takes"),
         ("crates/operator/src/command_stream.rs", "when a request expires"),
         ("crates/runtime/src/", "deadlines"),
+        ("crates/view/src/live_feed.rs", "when a frame is due"),
         ("crates/wire/src/push.rs", "time-out of a reply"),
         ("crates/wire/src/connect_lock.rs", "time-out of connecting"),
         ("crates/wire/src/request.rs", "time-out of a reply"),
@@ -83,6 +84,7 @@ pub const THREADS: Restriction<'_> = Restriction {
         ("crates/node/src/push_bridge.rs", "exchanges pushes beside the loop"),
         ("crates/node/src/request_bridge.rs", "exchanges requests and replies beside the loop"),
         ("crates/runtime/src/journal.rs", "writes beside the loop"),
+        ("crates/view/src/server.rs", "watches and drives the robot while pages are served"),
     ],
 };
 

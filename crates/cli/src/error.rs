@@ -129,3 +129,13 @@ impl From<record::RecordError> for CliError {
         if is_input { Self::bad_input(error) } else { Self::new(error) }
     }
 }
+
+impl From<view::ViewError> for CliError {
+    fn from(error: view::ViewError) -> Self {
+        match error {
+            view::ViewError::Record(error) => error.into(),
+            view::ViewError::Robot(_) | view::ViewError::Lacks { .. } => Self::bad_input(error),
+            error => Self::new(error),
+        }
+    }
+}

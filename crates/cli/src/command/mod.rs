@@ -19,6 +19,7 @@ mod robots;
 mod send;
 mod stream;
 mod synthesize;
+mod view;
 mod walk;
 
 use clap::{Parser, Subcommand};
@@ -52,6 +53,7 @@ enum HalfstepCommand {
     Export(export::ExportArgs),
     Import(import::ImportArgs),
     Robots(robots::RobotsArgs),
+    View(view::ViewArgs),
     Plot(plot::PlotArgs),
     Replay(replay::ReplayArgs),
 }
@@ -81,6 +83,7 @@ impl Halfstep {
             HalfstepCommand::Export(args) => args.run(json),
             HalfstepCommand::Import(args) => args.run(json),
             HalfstepCommand::Robots(args) => args.run(json),
+            HalfstepCommand::View(args) => args.run(json),
             HalfstepCommand::Plot(args) => args.run(json),
             HalfstepCommand::Replay(args) => args.run(json),
         }

@@ -57,6 +57,9 @@ pub(super) struct WalkArgs {
     /// Instance name for other processes to connect to [default: unique per run]
     #[arg(long, value_name = "NAME")]
     instance: Option<InstanceName>,
+    /// Show the robot in the browser, with means to drive and to push it: prints the address of the page, see `view`
+    #[arg(long)]
+    view: bool,
 }
 
 /// The commands if no file is given.
@@ -75,6 +78,7 @@ struct Walking {
     plant: Process,
     script: ScriptRunner,
     observer: ObserverPorts,
+    _view: Option<Process>,
     _leftovers: Leftovers,
 }
 
@@ -180,6 +184,7 @@ impl WalkArgs {
         let observer = ObserverPorts::connect(instance)?;
         let mut script = ScriptRunner::new(operator, steps, rate);
         script.send()?;
+        let view = self.view.then(|| Process::start("view", self.arguments_of_view(instance))).transpose()?;
         let mut of_plant = self.arguments(instance, folder);
         of_plant.extend(["--end-when-fallen".into(), "--seed".into(), self.seed.to_string().into()]);
         of_plant.extend(["--engine".into(), self.plant.name().into()]);
@@ -187,7 +192,14 @@ impl WalkArgs {
             of_plant.push(path_option("--disturbances", file));
         }
         let plant = Process::start("plant", of_plant)?;
-        Ok(Walking { controller, plant, script, observer, _leftovers: leftovers })
+        Ok(Walking { controller, plant, script, observer, _view: view, _leftovers: leftovers })
+    }
+
+    /// Arguments of the process that serves the page.
+    fn arguments_of_view(&self, instance: &Instance) -> Vec<OsString> {
+        let mut arguments = self.config.arguments();
+        arguments.push(format!("--instance={}", instance.name()).into());
+        arguments
     }
 
     /// Arguments of both processes.

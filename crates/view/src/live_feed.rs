@@ -1,0 +1,119 @@
+//! Watches a running robot, and publishes what the page shows of it. Nobody waits for a page: those that are slow get
+//! the newest frame and miss those before.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use model::Mechanism;
+use runtime::{Rate, now_ns};
+use tokio::sync::watch;
+use wire::{ConnectError, Instance, MeasurementMessage, SpectatorPorts};
+
+use crate::frame_assembler::FrameAssembler;
+use crate::message::ToPage;
+use crate::robot_drawing::RobotDrawing;
+
+/// Time between two looks at the reports, of which the last 64 are kept: in lockstep a second passes in a few
+/// hundredths of one.
+const POLL_INTERVAL: Duration = Duration::from_millis(1);
+/// Time between two frames.
+const FRAME_INTERVAL: Duration = Duration::from_millis(25);
+/// Time between two attempts to connect.
+const RETRY_INTERVAL: Duration = Duration::from_millis(200);
+/// After this time without a report the connection is made anew: the controller may have gone.
+const SILENCE_MAX: Duration = Duration::from_secs(3);
+
+/// What a page shows of a running robot: two texts, each replaced by newer ones.
+#[derive(Clone, Debug)]
+pub(crate) struct LiveTexts {
+    /// The robot, or why there is none to be seen.
+    pub(crate) scene: watch::Receiver<Arc<str>>,
+    /// The newest frame; empty before the first one.
+    pub(crate) frame: watch::Receiver<Arc<str>>,
+}
+
+/// Publishes what is seen of an instance until nobody wants it any more.
+pub(crate) struct LiveFeed {
+    instance: Instance,
+    /// The robots that may be running, of which the fingerprint tells which one is.
+    robots: Vec<Mechanism>,
+    scene: watch::Sender<Arc<str>>,
+    frame: watch::Sender<Arc<str>>,
+}
+
+impl LiveFeed {
+    pub(crate) fn new(instance: Instance, robots: Vec<Mechanism>) -> (Self, LiveTexts) {
+        let waiting = ToPage::Waiting { why: "connecting" }.text();
+        let (scene, scene_texts) = watch::channel(waiting);
+        let (frame, frame_texts) = watch::channel(Arc::from(""));
+        (Self { instance, robots, scene, frame }, LiveTexts { scene: scene_texts, frame: frame_texts })
+    }
+
+    /// Watches until the last receiver has gone.
+    pub(crate) fn run(self) {
+        while !self.frame.is_closed() {
+            let why = match SpectatorPorts::connect(&self.instance) {
+                Ok(ports) => match self.robot(ports.mechanism) {
+                    Some(robot) => {
+                        self.watch(ports, robot);
+                        "the controller is silent".to_owned()
+                    }
+                    None => "a robot is running that is not known here: start `halfstep view` with its --config or \
+                             --robot"
+                        .to_owned(),
+                },
+                Err(ConnectError::NoController { .. }) => {
+                    format!("no controller is running on instance `{}`", self.instance.name())
+                }
+                Err(error) => error.to_string(),
+            };
+            self.tell(&self.scene, ToPage::Waiting { why: &why }.text());
+            std::thread::sleep(RETRY_INTERVAL);
+        }
+    }
+
+    fn robot(&self, fingerprint: u64) -> Option<&Mechanism> {
+        self.robots.iter().find(|robot| robot.fingerprint == fingerprint)
+    }
+
+    /// Publishes frames until the controller has been silent for long.
+    fn watch(&self, mut ports: SpectatorPorts, robot: &Mechanism) {
+        let rate = Rate::clamped(ports.reports.rate_hz());
+        let mut assembler = FrameAssembler::new(robot, rate, ports.is_lockstep);
+        let (mut heard_ns, mut framed_ns) = (now_ns(), 0);
+        let mut is_heard = false;
+        let mut measured: Option<MeasurementMessage> = None;
+        let elapsed = |since: u64| Duration::from_nanos(now_ns().saturating_sub(since));
+        while !self.frame.is_closed() && elapsed(heard_ns) < SILENCE_MAX {
+            if measured.is_none() && elapsed(framed_ns) >= FRAME_INTERVAL {
+                measured = ports.measurements.latest();
+            }
+            // A report that cannot be received is a lost one.
+            while let Ok(Some(report)) = ports.reports.next_report() {
+                assembler.take(&report);
+                heard_ns = now_ns();
+                if !std::mem::replace(&mut is_heard, true) {
+                    let drawing = RobotDrawing::new(robot);
+                    let instance = self.instance.name().as_str();
+                    self.tell(&self.scene, ToPage::Live { instance, rate_hz: rate.hz(), robot: &drawing }.text());
+                }
+                // Reports take a while: the one of the period that used the measurement comes after it.
+                if let Some(message) = measured.take_if(|message| message.time_ns <= report.time_ns) {
+                    framed_ns = now_ns();
+                    if let Some(frame) = assembler.frame(&message.measurement()) {
+                        self.tell(&self.frame, ToPage::Frame(&frame).text());
+                    }
+                }
+            }
+            std::thread::sleep(POLL_INTERVAL);
+        }
+    }
+
+    fn tell(&self, to: &watch::Sender<Arc<str>>, text: Arc<str>) {
+        to.send_if_modified(|last| {
+            let is_new = *last != text;
+            *last = text;
+            is_new
+        });
+    }
+}
