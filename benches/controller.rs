@@ -30,6 +30,8 @@ fn controller(criterion: &mut Criterion) {
         orientation: Quaternion::identity(),
         angular_rate: Vector3::zeros(),
         currents: model::JointVector::ZERO,
+        specific_force: Vector3::z() * model::GRAVITY,
+        missing: interface::SensorGroups::NONE,
     };
     let mut walking = Controller::new(&mechanism, table.clone(), &parameters, Start::default()).expect("it walks");
     group.bench_function("tick", |bencher| {

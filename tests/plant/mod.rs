@@ -7,6 +7,7 @@ mod an_unstable_simulation_is_noticed;
 mod friction_holds_below_the_cone_and_slips_above;
 mod held_joints_yield_to_gravity;
 mod sensor_faults_follow_the_script;
+mod sensors_err_as_configured;
 mod smaller_steps_err_less;
 mod the_ground_carries_soles_by_its_shape;
 mod the_ground_is_made_of_its_parts;

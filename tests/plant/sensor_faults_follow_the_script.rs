@@ -5,7 +5,7 @@
 use config::Config;
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::plant_parameters;
-use interface::{Measurement, Setpoint};
+use interface::{Measurement, SensorGroup, Setpoint};
 use model::{Joint, Motion, Side};
 use nalgebra::UnitQuaternion;
 use plant::{Disturbances, Plant};
@@ -170,5 +170,28 @@ fn simultaneous_faults_act_one_after_the_other() {
         assert_eq!(faulty.angles, before.angles);
         assert_eq!(faulty.currents[Joint::LeftElbow], good.currents[Joint::LeftElbow] + 7.0);
         assert_eq!((faulty.rates, faulty.feet), (good.rates, good.feet));
+    });
+}
+
+#[test]
+fn a_missing_group_is_said_to_be_missing() {
+    for (values, groups) in [
+        ("orientation", vec![SensorGroup::Orientation]),
+        ("specific_force", vec![SensorGroup::SpecificForce]),
+        ("feet", vec![SensorGroup::RightFoot, SensorGroup::LeftFoot]),
+        ("angles\"\njoint = \"left_knee", vec![SensorGroup::Joints]),
+    ] {
+        assert_fault(&format!("kind = \"missing\"\nvalues = \"{values}\""), |faulty, good, _| {
+            assert_eq!(faulty.missing.iter().collect::<Vec<_>>(), groups, "{values}");
+            assert_eq!(faulty.rates, good.rates, "{values}");
+        });
+    }
+}
+
+#[test]
+fn a_spike_of_the_accelerometer_adds_its_size() {
+    assert_fault("kind = \"spike\"\nvalues = \"specific_force\"\nsize_m_per_s2 = 5", |faulty, good, _| {
+        assert_eq!(faulty.specific_force, good.specific_force.add_scalar(5.0));
+        assert_eq!(faulty.angular_rate, good.angular_rate);
     });
 }

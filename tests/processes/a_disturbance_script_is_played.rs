@@ -60,7 +60,7 @@ fn each_mistake_of_a_disturbance_script_is_named() {
         ("\"pelvis\"", "\"hip\"", "push[0].link = \"hip\": must be one of \"right_foot\", \"right_shank\""),
         ("[[push]]", "[push]", "must be tables, each with the header [[push]]"),
         ("[[push]]", "[[pusch]]", "pusch = [[pusch]]: unknown key; write `push`"),
-        ("\"spike\"", "\"spik\"", "sensor_fault[0].kind = \"spik\": must be one of \"freeze\", \"nan\", \"spike\""),
+        ("\"spike\"", "\"spik\"", "sensor_fault[0].kind = \"spik\": must be one of \"freeze\", \"nan\", \"missing\""),
         (
             "\"angles\"",
             "\"angle\"",

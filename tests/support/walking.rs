@@ -66,9 +66,9 @@ fn standing_by(mechanism: &Mechanism, table: Arc<NominalTable>, parameters: &con
 #[derive(Clone, Debug)]
 pub struct Walking {
     /// The controller with its worker.
-    pub driver: Driver<InlineWorker>,
+    pub driver: Box<Driver<InlineWorker>>,
     /// The simulated robot.
-    pub plant: Plant,
+    pub plant: Box<Plant>,
     /// The newest measurement.
     pub measurement: Measurement,
     tick: u64,
@@ -103,10 +103,16 @@ impl Walking {
         let start = Walk::new(table.clone(), mechanism, &controller.gait, Start::default())
             .expect("the nominal walks")
             .physical_motion();
-        let mut plant = Plant::new(mechanism, plant, &start, PERIOD, seed);
-        let measurement = plant.measure();
+        let plant = Plant::new(mechanism, plant, &start, PERIOD, seed);
         let controller = Controller::new(mechanism, table, controller, Start::default()).expect("the nominal walks");
         let driver = Driver { controller, worker: InlineWorker };
+        Self::new(driver, plant)
+    }
+
+    fn new(driver: Driver<InlineWorker>, mut plant: Plant) -> Self {
+        let measurement = plant.measure();
+        // Boxed: some copies would fill the stack of a test.
+        let (driver, plant) = (Box::new(driver), Box::new(plant));
         Self { driver, plant, measurement, tick: 0, waiting: VecDeque::with_capacity(WAITING) }
     }
 
@@ -124,11 +130,10 @@ impl Walking {
         seed: u64,
     ) -> Self {
         let start = standing_by(mechanism, table.clone(), parameters);
-        let mut plant = Plant::new(mechanism, plant, &start, PERIOD, seed);
-        let measurement = plant.measure();
+        let plant = Plant::new(mechanism, plant, &start, PERIOD, seed);
         let controller = Controller::standing(mechanism, table, parameters, Start::default());
         let driver = Driver { controller: controller.expect("the nominal walks"), worker: InlineWorker };
-        Self { driver, plant, measurement, tick: 0, waiting: VecDeque::with_capacity(WAITING) }
+        Self::new(driver, plant)
     }
 
     /// The controller.

@@ -31,6 +31,7 @@ mod playback;
 mod pushes;
 #[cfg(all(feature = "mujoco", feature = "processes"))]
 mod robots;
+mod sensor_variations;
 mod single;
 mod spoiling;
 mod start_stop;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use dynamics::{Kinematics, PlannedContact, ReferenceDynamics, Tree};
 use gait::{GaitParameters, NominalTable, Start, Walk, interpolate};
-use interface::{Command, Measurement, Setpoint};
+use interface::{Command, Measurement, SensorGroups, Setpoint};
 use model::{ComState, Mechanism, Mirrored, Motion};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use paper::PaperLean;
@@ -123,7 +123,7 @@ impl Playback {
     fn centre_of_mass(&mut self) -> ComState {
         let up = UnitQuaternion::new_unchecked(self.measured.orientation).inverse() * Vector3::z();
         let (support, mirror) = (self.walk.half_step().support, self.walk.mirror());
-        let sensed = SupportFrameMeasurement::new(support, mirror, &self.measured, up);
+        let sensed = SupportFrameMeasurement::new(support, mirror, &self.measured, up, SensorGroups::NONE);
         self.kinematics.compute_fixed_base(&self.tree, &sensed.angles);
         estimate_com(&self.tree, &self.kinematics, &sensed, &ContactEstimate::AIRBORNE)
     }

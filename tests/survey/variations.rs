@@ -15,6 +15,7 @@ use crate::asked;
 use crate::cores::on_all_cores;
 #[cfg(feature = "mujoco")]
 use crate::mujoco::{Outside, start};
+use crate::sensor_variations;
 use crate::table::{self, millimetres};
 use crate::watched::Watched;
 
@@ -30,6 +31,9 @@ pub(crate) struct Options {
     #[cfg(feature = "mujoco")]
     #[arg(long, value_enum, default_value_t = Physics::Rust)]
     plant: Physics,
+    /// Only variations whose name contains this
+    #[arg(long, default_value = "")]
+    only: String,
     /// Robots whose masses are wrong, each in its own way
     #[arg(long, default_value_t = 4)]
     seeds: u64,
@@ -89,6 +93,8 @@ pub(crate) fn survey(options: &Options) -> bool {
     let (mechanism, controller) = (mechanism(), controller_parameters());
     let (variations, commands) =
         if options.hard { (hard_variations(), COMMANDS_IN_HARD_WORLD) } else { (variations(options.seeds), COMMANDS) };
+    let variations: Vec<_> =
+        variations.into_iter().filter(|variation| variation.name.contains(&options.only)).collect();
     let walks = on_all_cores(variations.len() * commands.len(), |index| {
         let Variation { parameters, seed, .. } = &variations[index / commands.len()];
         let (speed, turn) = commands[index % commands.len()];
@@ -217,6 +223,7 @@ fn hard_variations() -> Vec<Variation> {
         vary("payload 10 kg behind", |parameters| parameters.payload = Payload { mass: 10.0, at: behind }),
         vary("masses ±10 %", |parameters| parameters.mass_error = 0.1),
     ]);
+    variations.extend(sensor_variations::IN_HARD_WORLD.map(|(name, change)| vary(name, change)));
     variations
 }
 

@@ -29,6 +29,8 @@ fn good(tick: u64) -> Measurement {
         orientation: Quaternion::identity(),
         angular_rate: Vector3::zeros(),
         currents: JointVector::ZERO,
+        specific_force: Vector3::z() * model::GRAVITY,
+        missing: interface::SensorGroups::NONE,
     }
 }
 

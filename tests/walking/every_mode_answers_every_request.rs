@@ -172,6 +172,8 @@ fn after_a_fall_a_reset_leads_back_to_a_stand() {
         orientation: Quaternion::new(0.5_f64.sqrt(), 0.0, 0.5_f64.sqrt(), 0.0),
         angular_rate: Vector3::zeros(),
         currents: model::JointVector::ZERO,
+        specific_force: Vector3::z() * model::GRAVITY,
+        missing: interface::SensorGroups::NONE,
     };
     let mut tick = |controller: &mut Controller, orientation| {
         measurement = Measurement { sample: measurement.sample + 1, orientation, ..measurement };

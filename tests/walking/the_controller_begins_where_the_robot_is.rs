@@ -29,7 +29,7 @@ fn standing(intent: Intent) -> Walking {
 #[test]
 fn a_restart_beside_a_standing_robot_stands_and_walks_when_asked() {
     let mut walking = standing(Intent::Stop);
-    walking.driver = restarted();
+    *walking.driver = restarted();
     let before = walking.measurement.angles;
     let tick = walking.tick(None);
     assert!((tick.setpoint.angles - before).max_abs() < 0.02, "the first setpoint is where the joints are");
@@ -45,7 +45,7 @@ fn a_restart_beside_a_standing_robot_stands_and_walks_when_asked() {
 #[test]
 fn a_restart_beside_a_robot_in_stride_holds_it_and_says_why() {
     let mut walking = standing(Intent::Hold);
-    walking.driver = restarted();
+    *walking.driver = restarted();
     for _ in 0..4000 {
         let tick = walking.tick(None);
         assert_eq!(tick.report.mode, Mode::Faulted);
@@ -89,7 +89,7 @@ fn a_robot_that_comes_back_in_a_stand_walks_again_after_a_reset() {
 #[test]
 fn joints_move_slowly_from_where_they_are_found() {
     let mut walking = standing(Intent::Stop);
-    walking.driver = restarted();
+    *walking.driver = restarted();
     let mut angles: JointVector = walking.measurement.angles;
     angles[Joint::LeftShoulder] += 0.25;
     walking.measurement.angles = angles;

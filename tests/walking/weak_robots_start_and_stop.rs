@@ -31,9 +31,9 @@ fn standing(name: &str, spoil: impl Fn(&mut Mechanism)) -> Walking {
 fn after(walking: &mut Walking, seconds: usize, what: &str) -> Mode {
     let mut mode = Mode::Standing;
     for tick in 0..seconds * SECOND {
-        let report = walking.tick(None).report;
-        mode = report.mode;
-        assert!(!matches!(mode, Mode::Faulted | Mode::Fallen), "{what}, after {tick} ms: {:?}", report.faults);
+        let now = walking.tick(None);
+        mode = now.report.mode;
+        assert!(!matches!(mode, Mode::Faulted | Mode::Fallen), "{what}, after {tick} ms: {:?}", now.latched);
     }
     assert!(!walking.plant.truth().has_fallen(), "{what}");
     mode

@@ -17,13 +17,14 @@ use model::{ComState, JointVector, Mechanism, Motion, Side};
 use nalgebra::Vector2;
 use pattern::{BodyTilt, FeasibilityCheck, MeasuredBalance, PatternGenerator, Stance, VelocityMap};
 use stabilizer::{
-    BalanceState, ComPrediction, ContactEstimate, DcmFeedback, LandingCompliance, SupportFoot, WalkOdometry,
-    ZmpEstimator,
+    AttitudeEstimator, BalanceState, ComFilter, ContactEstimate, DcmFeedback, GroundSlopeFilter, LandingCompliance,
+    SupportFoot, WalkOdometry, ZmpEstimator,
 };
 
 use crate::admission_control::AdmissionControl;
 use crate::admission_job::AdmissionJob;
 use crate::command_arbiter::CommandArbiter;
+use crate::drive_deflection::DriveDeflection;
 use crate::gravity_consistency::GravityConsistency;
 use crate::joint_limiter::JointLimiter;
 use crate::measurement_validator::MeasurementValidator;
@@ -59,6 +60,8 @@ pub struct Controller {
     tilt: Vector2<f64>,
     /// The support foot as last measured, while it bears.
     support_foot: Option<SupportFoot>,
+    ground_slope: GroundSlopeFilter,
+    deflection: DriveDeflection,
     reference: ReferenceDynamics,
     feedback: DcmFeedback,
     landing: LandingCompliance,
@@ -72,7 +75,12 @@ pub struct Controller {
     /// The joint by which the robot was found in another posture than the controller begins in, while it holds it.
     unexpected_posture: Option<Rejection>,
     gravity: GravityConsistency,
-    com_prediction: ComPrediction,
+    attitude: AttitudeEstimator,
+    com_filter: ComFilter,
+    /// Time since the last sample that could be used (s).
+    since_sample: f64,
+    /// Whether a sensor was at fault in the last sample.
+    has_sensor_fault: bool,
     odometry: WalkOdometry,
     velocity_map: VelocityMap,
     /// For how long measurements have called for another step (s).
@@ -147,6 +155,8 @@ impl Controller {
             contact: ContactEstimate::AIRBORNE,
             tilt: Vector2::zeros(),
             support_foot: None,
+            ground_slope: GroundSlopeFilter::new(mechanism),
+            deflection: DriveDeflection::new(mechanism),
             feedback: DcmFeedback::new(mechanism, parameters.stabilizer.feedback),
             landing: LandingCompliance::new(mechanism, parameters.stabilizer.landing),
             limiter: JointLimiter::new(mechanism, &first),
@@ -155,7 +165,10 @@ impl Controller {
             measured_angles: None,
             unexpected_posture: None,
             gravity: GravityConsistency::default(),
-            com_prediction: ComPrediction::default(),
+            attitude: AttitudeEstimator::default(),
+            com_filter: ComFilter::new(mechanism),
+            since_sample: 0.0,
+            has_sensor_fault: false,
             odometry,
             velocity_map: VelocityMap::new(mechanism, walk.table()),
             push_seen_for: 0.0,
@@ -187,8 +200,8 @@ impl Controller {
         self.check_gravity(com_measured.as_ref(), dt, &mut faults);
 
         // What does balance command? No new sample is no reason to take the error for none.
-        let com = com_measured.or_else(|| self.com_prediction.predict(&self.reference.com, dt));
-        self.balance(com, com_measured.is_some(), dt);
+        let com = self.com_filter.com(&self.reference.com);
+        self.balance(com, dt);
 
         // What does the gait command?
         let support = self.pattern.gait().half_step().support;
@@ -214,7 +227,7 @@ impl Controller {
         Tick {
             rejection: self.rejection(),
             setpoint,
-            report: self.report(&commanded, com_measured, is_same_foot, faults),
+            report: self.report(&commanded, com_measured.and(com), is_same_foot, faults),
             command: self.pattern.gait().command(),
             reply: self.admission.take_reply().map(|reply| self.complete_reply(reply)),
             superseded: self.admission.take_superseded().map(|reply| self.complete_reply(reply)),
@@ -268,7 +281,7 @@ impl Controller {
     }
 
     /// Updates feedback, landing compliance and step adjustment with the centre of mass, estimated or predicted.
-    fn balance(&mut self, com: Option<ComState>, is_measured: bool, dt: f64) {
+    fn balance(&mut self, com: Option<ComState>, dt: f64) {
         let follows_walk = self.follows_walk();
         if !follows_walk {
             self.feedback.release();
@@ -296,7 +309,9 @@ impl Controller {
         }
         let dcm = self.reference.com.divergent_component() + self.feedback.step_error();
         let choice = gait.choose_step(&MeasuredBalance { dcm, zmp_bounds: self.feedback.zmp_bounds() });
-        self.push_seen_for = if is_measured && choice.is_some() { self.push_seen_for + dt } else { 0.0 };
+        // A period without a new sample is no reason to wait longer.
+        let is_seen = choice.is_some() && !self.has_sensor_fault;
+        self.push_seen_for = if is_seen { self.push_seen_for + dt } else { 0.0 };
         if let Some(choice) = choice.filter(|_| self.push_seen_for > PUSH_SEEN_MIN) {
             gait.adjust_step(choice);
         }
@@ -329,8 +344,9 @@ impl Controller {
             self.feedback.change_support(mirror, heading);
             self.landing.change_support(mirror);
             self.zmp_estimator.change_support(mirror);
-            self.com_prediction = ComPrediction::default();
             self.support_foot = None;
+            self.ground_slope.change_support(heading);
+            self.com_filter.change_support(heading);
         }
         let motion = gait.motion();
         self.reference.update(&self.tree, gait.walk().mirror(), &motion, gait.contact());

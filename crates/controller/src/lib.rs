@@ -10,6 +10,7 @@ mod admission_job;
 mod command_arbiter;
 mod controller;
 mod destination_admission;
+mod drive_deflection;
 mod driver;
 mod gravity_consistency;
 mod joint_limiter;
@@ -19,6 +20,7 @@ mod operating_state;
 mod parameters;
 mod pattern;
 mod recovery;
+mod rejected_sensors;
 mod report;
 mod sensor_consistency;
 

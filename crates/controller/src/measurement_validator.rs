@@ -1,10 +1,12 @@
-//! The measurement validator: rejects measurements that are stale, out of order, not finite, implausible, or
-//! inconsistent with each other and with the setpoint.
+//! The measurement validator: rejects measurements that are stale or out of order, and the values of sensors that are
+//! missing, not finite, implausible, or inconsistent with each other and with the setpoint. One dead sensor does not
+//! silence the others: each is judged by itself.
 
-use interface::{Fault, Faults, Measurement, Rejection, Sensor};
+use interface::{Fault, Faults, Measurement, Rejection, Sensor, SensorGroup, SensorGroups};
 use model::{GRAVITY, Joint, JointLimits, Mechanism, PerJoint, Side};
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::rejected_sensors::RejectedSensors;
 use crate::sensor_consistency::{ConsistencyParameters, Expectation, SensorConsistency};
 
 /// What counts as a valid measurement and as a fall.
@@ -37,6 +39,21 @@ pub struct ValidatorParameters {
 
 /// Deviation of a measured quaternion's norm from 1 up to which it is an orientation.
 const NORM_TOLERANCE: f64 = 0.01;
+/// Largest component of the specific force at the trunk that an accelerometer tells (m/s²): about 100 g.
+const SPECIFIC_FORCE_MAX: f64 = 1000.0;
+
+/// The part of a sample that can be used.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct UsableSample {
+    /// The sample. Joints whose values cannot be used are where they were commanded to be.
+    pub measurement: Measurement,
+    /// The vertical in trunk axes (unit vector); `None` if the orientation cannot be used.
+    pub up: Option<Vector3<f64>>,
+    /// The groups whose values cannot be used, but for joints.
+    pub unusable: SensorGroups,
+    /// Whether a sensor is at fault.
+    pub has_fault: bool,
+}
 
 impl ValidatorParameters {
     /// Thresholds for a `timeout` (s) and a `tilt_max` (rad) where the configuration has no others.
@@ -63,7 +80,7 @@ impl ValidatorParameters {
     }
 }
 
-/// Lets valid measurements through, and knows how long ago the last one arrived.
+/// Lets valid values through, and knows how long ago the last sample without a fault arrived.
 #[derive(Clone, Debug)]
 pub struct MeasurementValidator {
     parameters: ValidatorParameters,
@@ -72,18 +89,20 @@ pub struct MeasurementValidator {
     force_max: f64,
     /// Number of the newest valid sample.
     newest: Option<u64>,
-    /// Time since the last valid measurement (s).
+    /// Time since the last sample without a fault (s).
     age: f64,
     /// The vertical (unit vector) and the angular rate (rad/s) of the last valid measurement, in trunk axes.
     trunk: Option<[Vector3<f64>; 2]>,
     /// Time since that measurement (s).
     trunk_age: f64,
+    /// Time since the last usable orientation (s).
+    orientation_age: f64,
     /// How long the trunk has been tilted beyond recovery (s).
     tilted: f64,
     consistency: SensorConsistency,
     /// Time since the last sample that was checked for consistency (s).
     unchecked: f64,
-    /// Why the newest sample was rejected, if it was.
+    /// What was wrong with the newest sample, if something was.
     rejection: Option<Rejection>,
     /// Whether the newest sample is the first one of a robot.
     has_found_robot: bool,
@@ -101,6 +120,7 @@ impl MeasurementValidator {
             age: 0.0,
             trunk: None,
             trunk_age: 0.0,
+            orientation_age: 0.0,
             tilted: 0.0,
             consistency: SensorConsistency::new(parameters.consistency, weight),
             unchecked: 0.0,
@@ -109,40 +129,36 @@ impl MeasurementValidator {
         }
     }
 
-    /// Absorbs what arrived within the last `dt` seconds; a valid measurement is returned with the vertical (unit
-    /// vector) in its trunk's axes.
+    /// Absorbs what arrived within the last `dt` seconds, and returns what of a new sample can be used.
     ///
     /// * `expected` – what is commanded, if the robot is to follow it: then measurements must be consistent with it and
     ///   with each other
-    pub(crate) fn update<'m>(
+    pub(crate) fn update(
         &mut self,
-        measurement: Option<&'m Measurement>,
+        measurement: Option<&Measurement>,
         expected: Option<&Expectation>,
         dt: f64,
         faults: &mut Faults,
-    ) -> Option<(&'m Measurement, Vector3<f64>)> {
+    ) -> Option<UsableSample> {
         self.age += dt;
         self.trunk_age += dt;
+        self.orientation_age += dt;
         self.unchecked += dt;
-        let mut valid = None;
+        let mut usable = None;
         // The same sample again adds nothing, but is no fault: the periods of the two processes drift.
         if let Some(measurement) = measurement.filter(|measurement| self.newest != Some(measurement.sample)) {
-            match self.check(measurement, expected) {
-                Ok(up) => {
-                    self.age = 0.0;
-                    self.rejection = None;
-                    valid = Some((measurement, up));
-                }
-                Err(rejection) => {
-                    self.rejection = Some(rejection);
-                    faults.insert(rejection.fault);
-                }
+            let mut rejected = RejectedSensors::default();
+            usable = self.check(measurement, expected, &mut rejected);
+            self.rejection = rejected.first();
+            match self.rejection {
+                None => self.age = 0.0,
+                Some(rejection) => faults.insert(rejection.fault),
             }
         }
         if self.is_stale() {
             faults.insert(Fault::MeasurementStale);
         }
-        valid
+        usable
     }
 
     /// Whether the newest sample is the first one of a robot: the first ever, or the first after the timeout of one
@@ -151,7 +167,7 @@ impl MeasurementValidator {
         self.has_found_robot
     }
 
-    /// Why the newest sample was rejected, if it was.
+    /// What was wrong with the newest sample, if something was.
     pub fn rejection(&self) -> Option<Rejection> {
         self.rejection
     }
@@ -161,67 +177,130 @@ impl MeasurementValidator {
         self.consistency.reset();
     }
 
-    /// Checks a new sample, and returns the vertical in its trunk's axes.
-    fn check(&mut self, measurement: &Measurement, expected: Option<&Expectation>) -> Result<Vector3<f64>, Rejection> {
+    /// Checks a new sample, and returns what of it can be used.
+    fn check(
+        &mut self,
+        measurement: &Measurement,
+        expected: Option<&Expectation>,
+        rejected: &mut RejectedSensors,
+    ) -> Option<UsableSample> {
         let is_earlier = self.newest.is_some_and(|newest| measurement.sample < newest);
         if is_earlier && !self.is_stale() {
-            return Err(Rejection { fault: Fault::MeasurementOutOfOrder, sensor: Sensor::All });
+            rejected.insert(Fault::MeasurementOutOfOrder, Sensor::All);
+            return None;
         }
         // After the timeout, a plant that counts from the start again is a new one.
         let is_new_robot = self.newest.is_none() || is_earlier;
         // It is where it is, whatever was commanded.
         let expected = expected.filter(|_| !is_new_robot);
-        let up = up_in_trunk(measurement)?;
-        let implausible =
-            self.implausible(measurement).or_else(|| self.contradicts_gyro(&up, &measurement.angular_rate));
-        if let Some(sensor) = implausible {
-            return Err(Rejection { fault: Fault::MeasurementImplausible, sensor });
+        self.reject_implausible(measurement, rejected);
+        let is_plausible = rejected.first().is_none();
+        if is_new_robot && !is_plausible {
+            return None;
+        }
+        let up = UnitQuaternion::new_normalize(measurement.orientation).inverse() * Vector3::z();
+        if is_plausible {
+            self.contradicts_gyro(&up, &measurement.angular_rate, rejected);
         }
         self.newest = Some(measurement.sample);
         self.has_found_robot = is_new_robot;
-        let inconsistent = self.inconsistent(measurement, &up, expected);
-        if !matches!(inconsistent, Some(Rejection { sensor: Sensor::Orientation, .. })) {
-            let is_tilted = up.z < self.parameters.tilt_max.cos();
-            self.tilted = if is_tilted { self.tilted + self.trunk_age } else { 0.0 };
-            self.trunk = Some([up, measurement.angular_rate]);
-            self.trunk_age = 0.0;
+        if rejected.first().is_none() {
+            self.reject_inconsistent(measurement, &up, expected, rejected);
         }
-        inconsistent.map_or(Ok(up), Err)
+        let up = (!rejected.groups().contains(SensorGroup::Orientation)).then_some(up);
+        self.note_trunk(up, measurement.angular_rate, rejected);
+        // Without a setpoint nobody knows where a joint is that does not tell.
+        if rejected.has_any_joint() && expected.is_none() {
+            return None;
+        }
+        let mut measurement = *measurement;
+        for joint in Joint::ALL.into_iter().filter(|joint| joint.is_powered() && rejected.has_joint(*joint)) {
+            let setpoint = expected.map(|expected| expected.setpoint)?;
+            measurement.angles[joint] = setpoint.angles[joint];
+            measurement.rates[joint] = setpoint.rates[joint];
+        }
+        Some(UsableSample { measurement, up, unusable: rejected.groups(), has_fault: rejected.first().is_some() })
     }
 
-    /// What of a plausible sample contradicts other values or what is commanded.
-    fn inconsistent(
+    /// Notes the trunk's motion, as far as it can be used.
+    fn note_trunk(&mut self, up: Option<Vector3<f64>>, rate: Vector3<f64>, rejected: &RejectedSensors) {
+        let Some(up) = up else { return };
+        let is_tilted = up.z < self.parameters.tilt_max.cos();
+        self.tilted = if is_tilted { self.tilted + self.orientation_age } else { 0.0 };
+        self.orientation_age = 0.0;
+        if !rejected.groups().contains(SensorGroup::AngularRate) {
+            self.trunk = Some([up, rate]);
+            self.trunk_age = 0.0;
+        }
+    }
+
+    /// Rejects what of a plausible sample contradicts other values or what is commanded.
+    fn reject_inconsistent(
         &mut self,
         measurement: &Measurement,
         up: &Vector3<f64>,
         expected: Option<&Expectation>,
-    ) -> Option<Rejection> {
+        rejected: &mut RejectedSensors,
+    ) {
         let dt = std::mem::take(&mut self.unchecked);
         if expected.is_none() || dt >= self.parameters.gyro_horizon {
             self.consistency.reset();
         }
-        self.consistency.update(measurement, up, expected?, dt)
+        if let Some(expected) = expected {
+            self.consistency.update(measurement, up, expected, dt, rejected);
+        }
     }
 
-    /// The sensor with a value that no working sensor of this robot produces, if there is one.
-    fn implausible(&self, measurement: &Measurement) -> Option<Sensor> {
+    /// Rejects values that are missing, are not finite, or that no working sensor of this robot produces.
+    fn reject_implausible(&self, measurement: &Measurement, rejected: &mut RejectedSensors) {
         let ValidatorParameters { angle_tolerance, rate_factor_max, trunk_rate_max, .. } = self.parameters;
+        let is_there = |group| !measurement.missing.contains(group);
+        let judge = |is_finite: bool, is_plausible: bool| match (is_finite, is_plausible) {
+            (false, _) => Some(Fault::MeasurementNotFinite),
+            (_, false) => Some(Fault::MeasurementImplausible),
+            _ => None,
+        };
         for joint in Joint::ALL {
-            let Some(limits) = &self.limits[joint] else { continue };
-            let range = limits.angle_min - angle_tolerance..=limits.angle_max + angle_tolerance;
-            if !range.contains(&measurement.angles[joint]) {
-                return Some(Sensor::JointAngle(joint));
-            } else if measurement.rates[joint].abs() > rate_factor_max * limits.rate_max {
-                return Some(Sensor::JointRate(joint));
+            let (angle, rate) = (measurement.angles[joint], measurement.rates[joint]);
+            if !is_there(SensorGroup::Joints) {
+                rejected.insert(Fault::MeasurementMissing, Sensor::JointAngle(joint));
+                continue;
+            }
+            let is_in_range = |limits: &JointLimits| {
+                (limits.angle_min - angle_tolerance..=limits.angle_max + angle_tolerance).contains(&angle)
+            };
+            let is_slow = |limits: &JointLimits| rate.abs() <= rate_factor_max * limits.rate_max;
+            let limits = self.limits[joint].as_ref();
+            if let Some(fault) = judge(angle.is_finite(), limits.is_none_or(is_in_range)) {
+                rejected.insert(fault, Sensor::JointAngle(joint));
+            } else if let Some(fault) = judge(rate.is_finite(), limits.is_none_or(is_slow)) {
+                rejected.insert(fault, Sensor::JointRate(joint));
             }
         }
+        let mut reject = |group, sensor, is_finite, is_plausible| {
+            let missing = (!is_there(group)).then_some(Fault::MeasurementMissing);
+            if let Some(fault) = missing.or(judge(is_finite, is_plausible)) {
+                rejected.insert(fault, sensor);
+            }
+        };
         for side in Side::BOTH {
             let foot = &measurement.feet[side.index()];
-            if foot.force.amax().max(foot.moment.amax()) > self.force_max {
-                return Some(Sensor::Foot(side));
-            }
+            let is_plausible = foot.force.amax().max(foot.moment.amax()) <= self.force_max;
+            reject(SensorGroup::of_foot(side), Sensor::Foot(side), foot.is_finite(), is_plausible);
         }
-        (measurement.angular_rate.amax() > trunk_rate_max).then_some(Sensor::AngularRate)
+        let is_unit = (measurement.orientation.norm() - 1.0).abs() < NORM_TOLERANCE;
+        reject(SensorGroup::Orientation, Sensor::Orientation, is_unit, true);
+        let rate = &measurement.angular_rate;
+        let is_finite = rate.iter().all(|rate| rate.is_finite());
+        reject(SensorGroup::AngularRate, Sensor::AngularRate, is_finite, rate.amax() <= trunk_rate_max);
+        let force = &measurement.specific_force;
+        if is_there(SensorGroup::SpecificForce) {
+            let is_finite = force.iter().all(|force| force.is_finite());
+            reject(SensorGroup::SpecificForce, Sensor::Accelerometer, is_finite, force.amax() <= SPECIFIC_FORCE_MAX);
+        } else {
+            // A robot need not have one.
+            rejected.do_without(SensorGroup::SpecificForce);
+        }
     }
 
     /// Whether no valid measurement has arrived for longer than the timeout.
@@ -229,18 +308,16 @@ impl MeasurementValidator {
         self.age > self.parameters.timeout
     }
 
-    /// Whether the angular rate jumps, or the vertical is not where the last one turns to at the mean rate of both
-    /// samples (`u̇ = u × ω` in trunk axes). After a gap beyond the gyro's horizon nothing can contradict.
-    fn contradicts_gyro(&self, up: &Vector3<f64>, rate: &Vector3<f64>) -> Option<Sensor> {
+    /// Rejects an angular rate that jumps, or a vertical that is not where the last one turns to at the mean rate of
+    /// both samples (`u̇ = u × ω` in trunk axes). After a gap beyond the gyro's horizon nothing can contradict.
+    fn contradicts_gyro(&self, up: &Vector3<f64>, rate: &Vector3<f64>, rejected: &mut RejectedSensors) {
         let ValidatorParameters { orientation_jump_max, trunk_rate_jump_max, gyro_horizon, .. } = self.parameters;
-        let [last_up, last_rate] = self.trunk.filter(|_| self.trunk_age < gyro_horizon)?;
+        let Some([last_up, last_rate]) = self.trunk.filter(|_| self.trunk_age < gyro_horizon) else { return };
         let expected = last_up + last_up.cross(&((last_rate + rate) * (self.trunk_age / 2.0)));
         if (rate - last_rate).amax() > trunk_rate_jump_max {
-            Some(Sensor::AngularRate)
+            rejected.insert(Fault::MeasurementImplausible, Sensor::AngularRate);
         } else if up.dot(&expected.normalize()) < orientation_jump_max.cos() {
-            Some(Sensor::Orientation)
-        } else {
-            None
+            rejected.insert(Fault::MeasurementImplausible, Sensor::Orientation);
         }
     }
 
@@ -252,32 +329,6 @@ impl MeasurementValidator {
     /// Whether the trunk has been tilted beyond recovery for long enough.
     pub fn has_fallen(&self) -> bool {
         self.tilted > self.parameters.fall_confirmation
-    }
-}
-
-/// The vertical in trunk axes, if every value is finite and the orientation is a rotation.
-fn up_in_trunk(measurement: &Measurement) -> Result<Vector3<f64>, Rejection> {
-    let not_finite = Joint::ALL
-        .into_iter()
-        .find_map(|joint| {
-            let [angle, rate] = [measurement.angles[joint], measurement.rates[joint]].map(f64::is_finite);
-            match (angle, rate) {
-                (false, _) => Some(Sensor::JointAngle(joint)),
-                (_, false) => Some(Sensor::JointRate(joint)),
-                _ => None,
-            }
-        })
-        .or_else(|| {
-            let side = Side::BOTH.into_iter().find(|side| !measurement.feet[side.index()].is_finite())?;
-            Some(Sensor::Foot(side))
-        });
-    let is_unit = (measurement.orientation.norm() - 1.0).abs() < NORM_TOLERANCE;
-    let not_finite = not_finite
-        .or_else(|| (!is_unit).then_some(Sensor::Orientation))
-        .or_else(|| measurement.angular_rate.iter().any(|rate| !rate.is_finite()).then_some(Sensor::AngularRate));
-    match not_finite {
-        Some(sensor) => Err(Rejection { fault: Fault::MeasurementNotFinite, sensor }),
-        None => Ok(UnitQuaternion::new_normalize(measurement.orientation).inverse() * Vector3::z()),
     }
 }
 
@@ -304,7 +355,62 @@ mod tests {
             orientation: UnitQuaternion::from_axis_angle(&axis, angle).into_inner(),
             angular_rate: axis.into_inner() * rate,
             currents: JointVector::ZERO,
+            specific_force: Vector3::z() * GRAVITY,
+            missing: SensorGroups::NONE,
         }
+    }
+
+    fn is_valid(validator: &mut MeasurementValidator, sample: &Measurement, dt: f64, faults: &mut Faults) -> bool {
+        validator.update(Some(sample), None, dt, faults).is_some_and(|usable| !usable.has_fault)
+    }
+
+    /// Each sensor alone is missing, or says nonsense: what is left can be used.
+    #[test]
+    fn one_dead_sensor_does_not_silence_the_others() {
+        type Spoil = fn(&mut Measurement);
+        let dead: [(SensorGroup, Spoil); 5] = [
+            (SensorGroup::Orientation, |sample| sample.orientation.coords.x = f64::NAN),
+            (SensorGroup::AngularRate, |sample| sample.angular_rate.y = 1e3),
+            (SensorGroup::RightFoot, |sample| sample.feet[0].force.z = f64::INFINITY),
+            (SensorGroup::LeftFoot, |sample| sample.feet[1].moment.x = f64::NAN),
+            (SensorGroup::SpecificForce, |sample| sample.specific_force.x = -1e6),
+        ];
+        for (group, spoil) in dead {
+            let mut spoilt = turned(1, 0.1, 0.0);
+            spoil(&mut spoilt);
+            let mut missing = turned(1, 0.1, 0.0);
+            missing.missing.insert(group);
+            for (sample, is_fault) in [(spoilt, true), (missing, group != SensorGroup::SpecificForce)] {
+                let (mut validator, mut faults) = (validator(), Faults::default());
+                validator.update(Some(&turned(0, 0.1, 0.0)), None, 1e-3, &mut faults).expect("a good sample");
+                let usable = validator.update(Some(&sample), None, 1e-3, &mut faults).expect("the others go on");
+                assert_eq!(usable.unusable.iter().collect::<Vec<_>>(), [group]);
+                assert_eq!((usable.has_fault, faults != Faults::default()), (is_fault, is_fault), "{group}");
+                assert_eq!(usable.up.is_none(), group == SensorGroup::Orientation);
+            }
+        }
+    }
+
+    #[test]
+    fn a_dead_encoder_is_taken_to_be_where_it_was_commanded() {
+        let mut setpoint = interface::Setpoint { angles: JointVector::ZERO, ..interface::Setpoint::default() };
+        setpoint.angles[Joint::LeftKnee] = 0.4;
+        let expected = Expectation {
+            setpoint: &setpoint,
+            yielding: &JointVector::ZERO,
+            deflection: &JointVector::ZERO,
+            support: None,
+        };
+        let mut validator = validator();
+        validator.update(Some(&turned(0, 0.1, 0.0)), Some(&expected), 1e-3, &mut Faults::default());
+        let mut dead = turned(1, 0.1, 0.0);
+        dead.angles[Joint::LeftKnee] = f64::NAN;
+        dead.angles[Joint::RightKnee] = 0.01;
+        let usable =
+            validator.update(Some(&dead), Some(&expected), 1e-3, &mut Faults::default()).expect("a part of it");
+        assert_eq!(usable.measurement.angles[Joint::LeftKnee], 0.4);
+        assert_eq!(usable.measurement.angles[Joint::RightKnee], 0.01);
+        assert!(usable.has_fault);
     }
 
     /// At 6 rad/s the trunk is tilted beyond 40° after 0.12 s; the robot counts as fallen 50 ms later.
@@ -314,7 +420,7 @@ mod tests {
         let mut fallen_at = None;
         for tick in 0..200 {
             let time = tick as f64 * 1e-3;
-            assert!(validator.update(Some(&turned(tick, 6.0 * time, 6.0)), None, 1e-3, &mut faults).is_some());
+            assert!(is_valid(&mut validator, &turned(tick, 6.0 * time, 6.0), 1e-3, &mut faults));
             fallen_at = fallen_at.or(validator.has_fallen().then_some(time));
         }
         assert!((0.16..0.18).contains(&fallen_at.unwrap()), "{fallen_at:?}");
@@ -328,7 +434,7 @@ mod tests {
             let jumps = (50..60).contains(&tick);
             let mut faults = Faults::default();
             let measurement = turned(tick, if jumps { 1.57 } else { 0.1 }, 0.0);
-            assert_eq!(validator.update(Some(&measurement), None, 1e-3, &mut faults).is_some(), !jumps, "tick {tick}");
+            assert_eq!(is_valid(&mut validator, &measurement, 1e-3, &mut faults), !jumps, "tick {tick}");
             assert_eq!(faults.contains(Fault::MeasurementImplausible), jumps, "tick {tick}");
             assert!(!validator.has_fallen());
         }
@@ -337,10 +443,10 @@ mod tests {
     #[test]
     fn a_jump_of_the_angular_rate_is_implausible() {
         let (mut validator, mut faults) = (validator(), Faults::default());
-        assert!(validator.update(Some(&turned(0, 0.1, 0.0)), None, 1e-3, &mut faults).is_some());
-        assert!(validator.update(Some(&turned(1, 0.1, 17.0)), None, 1e-3, &mut faults).is_none());
+        assert!(is_valid(&mut validator, &turned(0, 0.1, 0.0), 1e-3, &mut faults));
+        assert!(!is_valid(&mut validator, &turned(1, 0.1, 17.0), 1e-3, &mut faults));
         assert!(faults.contains(Fault::MeasurementImplausible));
-        assert!(validator.update(Some(&turned(2, 0.1, 0.1)), None, 1e-3, &mut faults).is_some());
+        assert!(is_valid(&mut validator, &turned(2, 0.1, 0.1), 1e-3, &mut faults));
     }
 
     /// A gap of 15 ms in a turn of 5 rad/s: 4.3° that the gyro explains.
@@ -350,7 +456,7 @@ mod tests {
         for tick in (0..10).chain(25..40) {
             let measurement = turned(tick, 0.8 - 5.0 * tick as f64 * 1e-3, -5.0);
             let dt = if tick == 25 { 0.016 } else { 1e-3 };
-            assert!(validator.update(Some(&measurement), None, dt, &mut faults).is_some(), "tick {tick}");
+            assert!(is_valid(&mut validator, &measurement, dt, &mut faults), "tick {tick}");
         }
     }
 }

@@ -6,7 +6,7 @@
 //! * **Joints**: an angle must stay close to its setpoint, and to the integral of its rate ([`JointConsistency`]).
 //! * **Feet**: over a while they carry the weight, and in a half-step the support foot does ([`LoadConsistency`]).
 //!
-//! A sample that contradicts is rejected at once: for a while the plan goes on without it, which costs less than
+//! A sensor that contradicts is rejected at once: for a while the robot goes on without it, which costs less than
 //! feedback of a wrong value. Only if that lasts does the robot stop.
 
 mod expectation;
@@ -21,6 +21,8 @@ use nalgebra::Vector3;
 
 pub(crate) use expectation::{Expectation, ExpectedSupport};
 pub use parameters::ConsistencyParameters;
+
+use crate::rejected_sensors::RejectedSensors;
 
 use frozen_values::FrozenValues;
 use joint_consistency::JointConsistency;
@@ -54,7 +56,7 @@ impl SensorConsistency {
         }
     }
 
-    /// Checks a new sample, and returns what contradicts.
+    /// Checks a new sample, and rejects what contradicts.
     ///
     /// * `vertical` – measured, in trunk axes (unit vector)
     /// * `dt` – time since the sample before (s)
@@ -64,15 +66,16 @@ impl SensorConsistency {
         vertical: &Vector3<f64>,
         expected: &Expectation,
         dt: f64,
-    ) -> Option<Rejection> {
+        rejected: &mut RejectedSensors,
+    ) {
         let last = self.last.replace(*measurement).unwrap_or(*measurement);
-        // Each of them sees every sample.
-        let frozen = self.frozen.update(measurement, &last, &expected.setpoint.rates, self.weight, dt);
+        self.frozen.update(measurement, &last, &expected.setpoint.rates, self.weight, dt, rejected);
         let trunk = self.trunk.update(measurement, &last, vertical, self.parameters.orientation_error_max, dt);
-        let joints = self.joints.update(measurement, &last, expected, &self.parameters, dt);
+        trunk.into_iter().for_each(|Rejection { fault, sensor }| rejected.insert(fault, sensor));
+        self.joints.update(measurement, &last, expected, &self.parameters, dt, rejected);
         let shares = measurement.feet.map(|foot| foot.force.z / self.weight);
         let loads = self.loads.update(shares, expected.support, self.parameters.load_share, dt);
-        frozen.or(trunk).or(joints).or(loads)
+        loads.into_iter().for_each(|Rejection { fault, sensor }| rejected.insert(fault, sensor));
     }
 
     /// Forgets the past: the robot was set up anew, or nothing was measured for long.

@@ -3,7 +3,7 @@
 use model::{ComState, Joint, JointVector, Mechanism, Mirror, Mirrored, Motion, Side, Sole, Wrench};
 use nalgebra::{Vector2, Vector3};
 
-use crate::{Kinematics, NewtonEuler, SupportPolygon, Tree, zmp};
+use crate::{Kinematics, NewtonEuler, SupportPolygon, Tree, ground_torques, zmp};
 
 /// Which feet are on the ground as planned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +29,8 @@ pub struct ReferenceDynamics {
     rotors: JointVector,
     /// Lean of the vertical over the support sole: x and y of the unit vector (-).
     vertical: Vector2<f64>,
+    /// The swing foot's share of the ground reaction (-).
+    swing_share: f64,
     /// Torques of the drives, rotors included (N·m).
     pub torques: JointVector,
     /// ZMP of the motion, relative to O (m); outside the sole it is fictitious.
@@ -53,6 +55,7 @@ impl ReferenceDynamics {
             soles: mechanism.sole,
             rotors,
             vertical: Vector2::zeros(),
+            swing_share: 0.0,
             torques: JointVector::ZERO,
             zmp: Vector2::zeros(),
             margin: 0.0,
@@ -83,11 +86,32 @@ impl ReferenceDynamics {
         &self.inverse.kinematics
     }
 
+    /// Acceleration of the trunk's origin less gravity, in support axes (m/s²): what an accelerometer there would tell.
+    pub fn specific_force_of_trunk(&self) -> Vector3<f64> {
+        self.inverse.links[Mechanism::TRUNK].acceleration
+    }
+
     /// Wrench of the ground about the origin of the support sole, in its axes, if it alone carries the robot.
     pub fn ground_on_sole(&self) -> Wrench {
         let axes = self.inverse.kinematics.rotation[Mechanism::RIGHT_FOOT];
         let Wrench { force, moment } = self.inverse.ground;
         Wrench { force: axes.tr_mul(&force), moment: axes.tr_mul(&moment) }
+    }
+
+    /// Torques of the leg joints beyond the planned ones, because the ground pushes otherwise than planned (N·m).
+    ///
+    /// * `feet` – wrenches of the ground on the support and on the swing foot, each about the origin of its sole in its
+    ///   axes
+    pub fn torques_beyond(&self, tree: &Tree, mechanism: &Mechanism, feet: [Wrench; 2]) -> JointVector {
+        let (kinematics, ground) = (self.kinematics(), self.inverse.ground);
+        let [support, swing] = std::array::from_fn(|foot| {
+            let sole = kinematics.sole_to_world(mechanism, Side::BOTH[foot]);
+            let Wrench { force, moment } = feet[foot];
+            let wrench = Wrench { force: sole.rotation * force, moment: sole.rotation * moment };
+            wrench.about(-sole.translation.vector)
+        });
+        let planned = [ground * (1.0 - self.swing_share), ground * self.swing_share];
+        ground_torques(tree, kinematics, &[support - planned[0], swing - planned[1]])
     }
 
     /// Computes the dynamics of a motion.
@@ -106,6 +130,7 @@ impl ReferenceDynamics {
             self.zmp = point;
         }
         let share = self.share_of_swing_foot(tree, contact);
+        self.swing_share = share;
         let on_support = self.inverse.torques;
         let carried = if share > 0.0 {
             let on_swing = self.on_swing_foot(tree, mirror, motion);

@@ -30,6 +30,8 @@ codes! {
         OutOfReach = 1024 "the plan needed a foot out of a leg's reach",
         /// A sensor's value stays the same to the bit although the robot moves; the measurement was not used.
         MeasurementFrozen = 2048 "a sensor's value has stopped changing",
+        /// A sensor says that it has no value.
+        MeasurementMissing = 131072 "a sensor has no value",
         /// Sensors contradict each other; the measurement was not used.
         MeasurementInconsistent = 4096 "sensors contradict each other",
         /// A joint is not where it was commanded to be: its encoder is off, or its drive does not follow.

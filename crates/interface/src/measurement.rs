@@ -3,6 +3,8 @@
 use model::{JointVector, Wrench};
 use nalgebra::{Quaternion, Vector3};
 
+use crate::SensorGroups;
+
 /// One sample of all sensors, by physical joint and foot. Nothing in it is trusted: the controller validates it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measurement {
@@ -18,6 +20,10 @@ pub struct Measurement {
     pub orientation: Quaternion<f64>,
     /// Angular rate of the trunk, in trunk axes (rad/s).
     pub angular_rate: Vector3<f64>,
+    /// Acceleration of the trunk's origin less gravity, in trunk axes (m/s²): upwards by `g` at rest.
+    pub specific_force: Vector3<f64>,
     /// Motor currents (A); 0 for joints 1 and 2.
     pub currents: JointVector,
+    /// The groups whose values are missing in this sample; what stands in their place means nothing.
+    pub missing: SensorGroups,
 }

@@ -23,6 +23,8 @@ pub enum Sensor {
     Orientation,
     /// The gyro of the trunk.
     AngularRate,
+    /// The accelerometer of the trunk.
+    Accelerometer,
 }
 
 /// Why a measurement was not used.
@@ -46,6 +48,7 @@ impl Sensor {
             Self::Feet => 0x3ff,
             Self::Orientation => 0x400,
             Self::AngularRate => 0x500,
+            Self::Accelerometer => 0x600,
         }
     }
 
@@ -60,6 +63,7 @@ impl Sensor {
             0x3ff => Self::Feet,
             0x400 => Self::Orientation,
             0x500 => Self::AngularRate,
+            0x600 => Self::Accelerometer,
             _ => return None,
         })
     }
@@ -76,6 +80,7 @@ impl fmt::Display for Sensor {
             Self::Feet => formatter.write_str("force sensors of the feet"),
             Self::Orientation => formatter.write_str("orientation of the trunk"),
             Self::AngularRate => formatter.write_str("angular rate of the trunk"),
+            Self::Accelerometer => formatter.write_str("accelerometer of the trunk"),
         }
     }
 }
@@ -100,6 +105,7 @@ mod tests {
             Sensor::Feet,
             Sensor::Orientation,
             Sensor::AngularRate,
+            Sensor::Accelerometer,
         ];
         for sensor in joints.chain(others) {
             assert_eq!(Sensor::from_code(sensor.code()), Some(sensor));

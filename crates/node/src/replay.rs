@@ -34,6 +34,10 @@ pub struct ReplayOutcome {
     pub missing: Option<String>,
     /// Where the recording is truncated, if it is: what follows was not recorded, and cannot be compared.
     pub cut: Option<String>,
+    /// What the recorded messages lack because an earlier version wrote them, one text for each kind: the controller of
+    /// this version replays without.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub lacking: Vec<String>,
 }
 
 /// The first value in which a recorded and a replayed setpoint differ.
@@ -106,6 +110,7 @@ pub fn replay(run: &Path) -> Result<ReplayOutcome, NodeError> {
             }
         }
         outcome.cut = outcome.cut.or(recording.cut());
+        outcome.lacking.extend(recording.lacking());
     }
     Ok(outcome)
 }
@@ -232,6 +237,9 @@ impl fmt::Display for ReplayOutcome {
         }
         for rest in self.missing.iter().chain(&self.cut) {
             write!(out, "\nreplay incomplete: {rest}")?;
+        }
+        for lacking in &self.lacking {
+            write!(out, "\nof an earlier version: {lacking}")?;
         }
         Ok(())
     }

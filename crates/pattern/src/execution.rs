@@ -1,7 +1,7 @@
 //! The execution of a plan: what is played and sensed at present. It stays when another plan takes over.
 
-use crate::ground_slope_estimator::GroundSlopeEstimator;
 use crate::knot::Knot;
+use crate::planned_slope::PlannedSlope;
 use crate::playback::Playback;
 use crate::proportions::PatternProportions;
 use crate::swing_clearance::{BodyTilt, SwingClearance};
@@ -12,7 +12,7 @@ pub(crate) struct Execution {
     /// The present among the planned knots.
     pub playback: Playback,
     /// The slope of the ground.
-    pub slope: GroundSlopeEstimator,
+    pub slope: PlannedSlope,
     /// Additional height of the swing sole.
     pub clearance: SwingClearance,
     /// Tilt of the body beyond the plan, in the newest knot's support coordinates.
@@ -28,7 +28,7 @@ impl Execution {
     pub(crate) fn new(proportions: &PatternProportions, knots: [Knot; 4]) -> Self {
         Self {
             playback: Playback::new(knots),
-            slope: GroundSlopeEstimator::new(proportions),
+            slope: PlannedSlope::new(proportions),
             clearance: SwingClearance::default(),
             tilt: BodyTilt::default(),
             knots_since_adjustment: 0,

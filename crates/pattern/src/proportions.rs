@@ -86,9 +86,8 @@ const SWING_CLEARANCE_TIME_CONSTANT: f64 = 0.08;
 const SWING_CLEARANCE_TIME_CONSTANT_IN_RECOVERY: f64 = 0.016;
 /// Longer than the noise of the sensors, shorter than a half-step (s).
 const SENSED_VERTICAL_TIME_CONSTANT: f64 = 0.05;
-/// More than a half-step: one sole may stand on a stone, several tell a slope. Meanwhile the ankle keeps the body
-/// upright (s).
-const SLOPE_TIME_CONSTANT: f64 = 0.75;
+/// About the time constant of the pendulum, 0.31 s: the centre of mass moves uphill within a step, without haste (s).
+const SLOPE_TIME_CONSTANT: f64 = 0.375;
 
 impl PatternProportions {
     /// The proportions of a robot.

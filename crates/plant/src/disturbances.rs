@@ -37,7 +37,7 @@ const LASTS_MIN: f64 = 1e-6;
 /// Largest component of an impulse (N·s), far more than fells any robot; a larger one is a mistake of unit.
 const IMPULSE_MAX: f64 = 1e4;
 /// The groups of sensed values by their names in a script.
-const VALUES: [(&str, SensedValues); 7] = [
+const VALUES: [(&str, SensedValues); 8] = [
     ("all", SensedValues::All),
     ("angles", SensedValues::Angles(None)),
     ("rates", SensedValues::Rates(None)),
@@ -45,6 +45,7 @@ const VALUES: [(&str, SensedValues); 7] = [
     ("feet", SensedValues::Feet(None)),
     ("orientation", SensedValues::Orientation),
     ("angular_rate", SensedValues::AngularRate),
+    ("specific_force", SensedValues::SpecificForce),
 ];
 
 /// The kinds of sensor fault by which a script names them, before their parameters are read.
@@ -52,6 +53,7 @@ const VALUES: [(&str, SensedValues); 7] = [
 enum Kind {
     Freeze,
     NotANumber,
+    Missing,
     Spike,
     Drift,
     Saturate,
@@ -114,6 +116,7 @@ fn sensor_fault(table: &Table) -> Option<SensorFault> {
     let kinds = [
         ("freeze", Kind::Freeze),
         ("nan", Kind::NotANumber),
+        ("missing", Kind::Missing),
         ("spike", Kind::Spike),
         ("drift", Kind::Drift),
         ("saturate", Kind::Saturate),
@@ -126,7 +129,17 @@ fn sensor_fault(table: &Table) -> Option<SensorFault> {
     let kind = table.choice("kind", kinds).and_then(|kind| fault_kind(table, kind));
     if kind.is_none() {
         // The parameters of an unknown kind cannot be checked: none of them is an unknown key.
-        for key in ["values", "joint", "foot", "size_deg", "size_deg_per_s", "size_n", "size_a", "delay_periods"] {
+        for key in [
+            "values",
+            "joint",
+            "foot",
+            "size_deg",
+            "size_deg_per_s",
+            "size_m_per_s2",
+            "size_n",
+            "size_a",
+            "delay_periods",
+        ] {
             table.has(key);
         }
     }
@@ -137,6 +150,7 @@ fn fault_kind(table: &Table, kind: Kind) -> Option<SensorFaultKind> {
     Some(match kind {
         Kind::Freeze => SensorFaultKind::Freeze(values(table)?),
         Kind::NotANumber => SensorFaultKind::NotANumber(values(table)?),
+        Kind::Missing => SensorFaultKind::Missing(values(table)?),
         Kind::Spike => {
             let values = values(table)?;
             SensorFaultKind::Spike { values, size: size(table, values) }
@@ -182,6 +196,7 @@ fn size(table: &Table, values: SensedValues) -> f64 {
     match values {
         SensedValues::Angles(_) | SensedValues::Orientation => table.angle("size_deg").between(-360.0, 360.0),
         SensedValues::Rates(_) | SensedValues::AngularRate => table.angle("size_deg_per_s").between(-1e6, 1e6),
+        SensedValues::SpecificForce => table.number("size_m_per_s2").between(-1e6, 1e6),
         SensedValues::Feet(_) => table.number("size_n").between(-1e7, 1e7),
         SensedValues::Currents(_) => table.number("size_a").between(-1e6, 1e6),
         SensedValues::All => {

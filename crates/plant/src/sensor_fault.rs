@@ -3,7 +3,7 @@
 //! They act on samples after noise and delay, and draw no random numbers: the values that they do not affect keep their
 //! bits.
 
-use interface::Measurement;
+use interface::{Measurement, SensorGroup, SensorGroups};
 use model::{Joint, JointVector, PerJoint, Side, Wrench};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
@@ -27,19 +27,21 @@ pub enum SensorFaultKind {
     Freeze(SensedValues),
     /// Values become NaN.
     NotANumber(SensedValues),
-    /// Values are off by `size`, in their own unit (rad, rad/s, N, A): of feet the vertical force, of the orientation
-    /// the rotation about the trunk's x axis.
+    /// Values are said to be missing, each with its whole group.
+    Missing(SensedValues),
+    /// Values are off by `size`, in their own unit (rad, rad/s, m/s², N, A): of feet the vertical force, of the
+    /// orientation the rotation about the trunk's x axis.
     Spike {
         /// The values that are off.
         values: SensedValues,
-        /// How much they are off (rad, rad/s, N, A).
+        /// How much they are off (rad, rad/s, m/s², N, A).
         size: f64,
     },
     /// Values run away by `rate` per second, as of a spike that grows.
     Drift {
         /// The values that run away.
         values: SensedValues,
-        /// How fast (rad/s, rad/s², N/s, A/s).
+        /// How fast (rad/s, rad/s², m/s³, N/s, A/s).
         rate: f64,
     },
     /// Values stop at ±`limit`, as of a sensor at the end of its range: of feet the vertical force, of the orientation
@@ -47,7 +49,7 @@ pub enum SensorFaultKind {
     Saturate {
         /// The values that are limited.
         values: SensedValues,
-        /// The end of the range (rad, rad/s, N, A).
+        /// The end of the range (rad, rad/s, m/s², N, A).
         limit: f64,
     },
     /// Values have the opposite sign: of feet the vertical force, of the orientation the inverse rotation.
@@ -80,6 +82,8 @@ pub enum SensedValues {
     Orientation,
     /// Angular rate of the trunk.
     AngularRate,
+    /// Specific force at the trunk.
+    SpecificForce,
 }
 
 impl SensorFault {
@@ -130,6 +134,10 @@ impl FaultInjector {
             let (values, wrong) = match fault.kind {
                 SensorFaultKind::Freeze(values) => (values, last),
                 SensorFaultKind::NotANumber(values) => (values, not_a_number()),
+                SensorFaultKind::Missing(values) => {
+                    values.groups().for_each(|group| arrives.missing.insert(group));
+                    (values, not_a_number())
+                }
                 SensorFaultKind::Spike { values, size } => (values, displaced(&arrives, size)),
                 SensorFaultKind::Drift { values, rate } => {
                     (values, displaced(&arrives, rate * fault.age(sent.sample, period)))
@@ -167,7 +175,7 @@ impl SensedValues {
             }
         }
         match self {
-            Self::All => *sample = Measurement { sample: sample.sample, ..*other },
+            Self::All => *sample = Measurement { sample: sample.sample, missing: sample.missing, ..*other },
             Self::Angles(joint) => of_joints(joint, &mut sample.angles, &other.angles),
             Self::Rates(joint) => of_joints(joint, &mut sample.rates, &other.rates),
             Self::Currents(joint) => of_joints(joint, &mut sample.currents, &other.currents),
@@ -175,7 +183,22 @@ impl SensedValues {
             Self::Feet(None) => sample.feet = other.feet,
             Self::Orientation => sample.orientation = other.orientation,
             Self::AngularRate => sample.angular_rate = other.angular_rate,
+            Self::SpecificForce => sample.specific_force = other.specific_force,
         }
+    }
+
+    /// The groups of a measurement to which these values belong.
+    fn groups(self) -> impl Iterator<Item = SensorGroup> {
+        SensorGroup::ALL.iter().copied().filter(move |group| match self {
+            Self::All => true,
+            Self::Angles(_) | Self::Rates(_) => *group == SensorGroup::Joints,
+            Self::Currents(_) => false,
+            Self::Feet(None) => matches!(group, SensorGroup::RightFoot | SensorGroup::LeftFoot),
+            Self::Feet(Some(side)) => *group == SensorGroup::of_foot(side),
+            Self::Orientation => *group == SensorGroup::Orientation,
+            Self::AngularRate => *group == SensorGroup::AngularRate,
+            Self::SpecificForce => *group == SensorGroup::SpecificForce,
+        })
     }
 }
 
@@ -191,6 +214,8 @@ fn not_a_number() -> Measurement {
         orientation: Quaternion::from_parts(f64::NAN, vector),
         angular_rate: vector,
         currents: joints,
+        specific_force: vector,
+        missing: SensorGroups::NONE,
     }
 }
 
@@ -205,6 +230,8 @@ fn displaced(sample: &Measurement, size: f64) -> Measurement {
         orientation: sample.orientation * UnitQuaternion::from_scaled_axis(Vector3::x() * size).into_inner(),
         angular_rate: sample.angular_rate.add_scalar(size),
         currents: joints(&sample.currents),
+        specific_force: sample.specific_force.add_scalar(size),
+        missing: sample.missing,
     }
 }
 
@@ -224,6 +251,8 @@ fn per_value(sample: &Measurement, change: impl Fn(f64) -> f64) -> Measurement {
         orientation: UnitQuaternion::from_scaled_axis(rotation.map(&change)).into_inner(),
         angular_rate: sample.angular_rate.map(&change),
         currents: joints(&sample.currents),
+        specific_force: sample.specific_force.map(&change),
+        missing: sample.missing,
     }
 }
 
@@ -239,5 +268,7 @@ fn swapped(sample: &Measurement) -> Measurement {
         orientation: sample.orientation,
         angular_rate: sample.angular_rate,
         currents: joints(&sample.currents),
+        specific_force: sample.specific_force,
+        missing: sample.missing,
     }
 }

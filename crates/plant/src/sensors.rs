@@ -1,4 +1,4 @@
-//! The sensors: delay, resolution and noise between the true state and the measurement.
+//! The sensors: rate, delay, resolution, bias and noise between the true state and the measurement.
 
 use config::Table;
 use interface::Measurement;
@@ -11,6 +11,8 @@ use rand_distr::{Distribution, StandardNormal};
 /// How the sensors err. Standard deviations of white noise per sample; all zero for perfect sensors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SensorParameters {
+    /// Control periods from sample to sample, 1 to [`Sensors::EVERY_MAX`].
+    pub every_periods: u32,
     /// Delay of the samples (control periods), 0 to [`Sensors::DELAY_MAX`].
     pub delay_periods: u32,
     /// Resolution of the joint encoders (rad); 0 for continuous angles.
@@ -25,22 +27,36 @@ pub struct SensorParameters {
     pub orientation_noise: f64,
     /// Noise of the trunk's angular rate about each of its axes (rad/s).
     pub angular_rate_noise: f64,
+    /// Noise of each component of the trunk's specific force (m/s²).
+    pub specific_force_noise: f64,
     /// Noise of the motor currents (A).
     pub current_noise: f64,
+    /// How the inertial measurement unit is turned in the trunk: roll, pitch, yaw (rad).
+    pub mounting: Vector3<f64>,
+    /// Bias of the gyro about the axes of the inertial measurement unit (rad/s).
+    pub gyro_bias: Vector3<f64>,
 }
+
+/// Number of the random stream of the accelerometer's noise; the errors of mass have another one.
+const ACCELEROMETER_STREAM: u64 = 2;
 
 /// All sensors. The same seed yields the same noise.
 #[derive(Clone, Debug)]
 pub struct Sensors {
     parameters: SensorParameters,
     noise: ChaCha8Rng,
-    /// Samples on their way, oldest first.
+    /// Of the accelerometer: another stream, so that it leaves the noise of the others as it is.
+    accelerometer_noise: ChaCha8Rng,
+    /// From the axes of the inertial measurement unit to those of the trunk.
+    mounting: UnitQuaternion<f64>,
+    /// What arrives in the coming control periods, oldest first.
     underway: heapless::Deque<Measurement, { Sensors::DELAY_MAX + 1 }>,
 }
 
 impl SensorParameters {
     /// Sensors without delay, rounding or noise.
     pub const PERFECT: SensorParameters = SensorParameters {
+        every_periods: 1,
         delay_periods: 0,
         angle_resolution: 0.0,
         rate_noise: 0.0,
@@ -48,12 +64,31 @@ impl SensorParameters {
         moment_noise: 0.0,
         orientation_noise: 0.0,
         angular_rate_noise: 0.0,
+        specific_force_noise: 0.0,
         current_noise: 0.0,
+        mounting: Vector3::new(0.0, 0.0, 0.0),
+        gyro_bias: Vector3::new(0.0, 0.0, 0.0),
     };
 
-    /// Reads the table `[sensors]`.
+    /// Reads the table `[sensors]`. Keys that older files do not have may be left out.
     pub(crate) fn read(table: &Table) -> Self {
+        let every_periods = if table.has("every_periods") {
+            table.integer("every_periods", 1, u64::from(Sensors::EVERY_MAX)) as u32
+        } else {
+            1
+        };
+        let vector = |key: &str, max: f64| {
+            let must = format!("each must lie between -{max} and {max}");
+            let in_range = |numbers: &[f64; 3]| numbers.iter().all(|number| number.abs() <= max);
+            if table.has(key) { Vector3::from(table.numbers(key).that(in_range, &must)) } else { Vector3::zeros() }
+        };
+        let specific_force_noise = if table.has("specific_force_noise_m_per_s2") {
+            table.number("specific_force_noise_m_per_s2").between(0.0, 1000.0)
+        } else {
+            0.0
+        };
         Self {
+            every_periods,
             delay_periods: table.integer("delay_periods", 0, Sensors::DELAY_MAX as u64) as u32,
             angle_resolution: table.angle("angle_resolution_deg").between(0.0, 10.0),
             rate_noise: table.angle("rate_noise_deg_per_s").between(0.0, 1000.0),
@@ -61,7 +96,10 @@ impl SensorParameters {
             moment_noise: table.number("moment_noise_n_m").between(0.0, 1e3),
             orientation_noise: table.angle("orientation_noise_deg").between(0.0, 45.0),
             angular_rate_noise: table.angle("angular_rate_noise_deg_per_s").between(0.0, 1000.0),
+            specific_force_noise,
             current_noise: table.number("current_noise_a").between(0.0, 1000.0),
+            mounting: vector("imu_mounting_deg", 45.0).map(f64::to_radians),
+            gyro_bias: vector("gyro_bias_deg_per_s", 100.0).map(f64::to_radians),
         }
     }
 }
@@ -70,23 +108,37 @@ impl Sensors {
     /// Longest delay (control periods).
     pub const DELAY_MAX: usize = 31;
 
+    /// Most control periods from sample to sample.
+    pub const EVERY_MAX: u32 = 100;
+
     /// Sensors with these errors.
     pub fn new(parameters: SensorParameters, seed: u64) -> Self {
-        Self { parameters, noise: ChaCha8Rng::seed_from_u64(seed), underway: heapless::Deque::new() }
+        let noise = ChaCha8Rng::seed_from_u64(seed);
+        let mut accelerometer_noise = noise.clone();
+        accelerometer_noise.set_stream(ACCELEROMETER_STREAM);
+        let [roll, pitch, yaw] = parameters.mounting.into();
+        let mounting = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+        Self { parameters, noise, accelerometer_noise, mounting, underway: heapless::Deque::new() }
     }
 
-    /// Takes the true values of this control period, and returns the sample that arrives in it. Until the first sample
-    /// has arrived, that sample is returned.
+    /// Takes the true values of this control period, and returns the sample that arrives in it: that of the period
+    /// before, with its number, when no new one does. Until the first sample has arrived, that sample is returned.
     pub fn sense(&mut self, truth: &Measurement) -> Measurement {
         let number = truth.sample;
-        let sample = self.disturbed(truth);
+        let sample = match self.underway.back() {
+            Some(last) if !number.is_multiple_of(self.parameters.every_periods.max(1).into()) => *last,
+            _ => self.disturbed(truth),
+        };
         let delay = (self.parameters.delay_periods as usize).min(Self::DELAY_MAX);
         if self.underway.len() > delay {
             self.underway.pop_front();
         }
         // Never full: at most `delay` ≤ DELAY_MAX samples remain.
         let _ = self.underway.push_back(sample);
-        Measurement { sample: number, ..self.underway.front().copied().unwrap_or(sample) }
+        let arrives = self.underway.front().copied().unwrap_or(sample);
+        // A sample is numbered by the period in which it arrives.
+        let arrived_for = number.saturating_sub(arrives.sample).saturating_sub(delay as u64);
+        Measurement { sample: number - arrived_for, ..arrives }
     }
 
     fn disturbed(&mut self, truth: &Measurement) -> Measurement {
@@ -101,10 +153,15 @@ impl Sensors {
                 force: foot.force + self.vector(parameters.force_noise),
                 moment: foot.moment + self.vector(parameters.moment_noise),
             }),
-            orientation: truth.orientation
+            orientation: (truth.orientation * self.mounting.into_inner())
                 * UnitQuaternion::from_scaled_axis(self.vector(parameters.orientation_noise)).into_inner(),
-            angular_rate: truth.angular_rate + self.vector(parameters.angular_rate_noise),
+            angular_rate: self.mounting.inverse() * truth.angular_rate
+                + parameters.gyro_bias
+                + self.vector(parameters.angular_rate_noise),
             currents: self.noisy_joints(&truth.currents, parameters.current_noise),
+            specific_force: self.mounting.inverse() * truth.specific_force
+                + Vector3::from_fn(|_, _| normal(&mut self.accelerometer_noise, parameters.specific_force_noise)),
+            missing: truth.missing,
         }
     }
 
@@ -117,10 +174,15 @@ impl Sensors {
     }
 
     fn normal(&mut self, deviation: f64) -> f64 {
-        if deviation == 0.0 {
-            return 0.0;
-        }
-        let normal: f64 = StandardNormal.sample(&mut self.noise);
-        deviation * normal
+        normal(&mut self.noise, deviation)
     }
+}
+
+/// White noise of this standard deviation.
+fn normal(noise: &mut ChaCha8Rng, deviation: f64) -> f64 {
+    if deviation == 0.0 {
+        return 0.0;
+    }
+    let normal: f64 = StandardNormal.sample(noise);
+    deviation * normal
 }

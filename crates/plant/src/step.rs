@@ -1,7 +1,7 @@
 //! One control period of the simulated robot.
 
 use dynamics::{ArticulatedBody, Tree};
-use interface::{Measurement, Setpoint};
+use interface::{Measurement, SensorGroups, Setpoint};
 use model::{GRAVITY, Joint, JointVector, Mechanism, Motion, Side, Sole, Wrench};
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -41,6 +41,8 @@ pub struct Plant {
     pub(crate) ground: [Wrench; 2],
     /// Torques of the motors over the last step, at the joints (N·m).
     pub(crate) motor_torques: JointVector,
+    /// Velocity of the trunk's origin in world axes (m/s) at the last measurement, and the period of that.
+    trunk_velocity: Option<(Vector3<f64>, u64)>,
 }
 
 impl Plant {
@@ -71,6 +73,7 @@ impl Plant {
             world_to_level: parameters.slope.world_to_level(),
             ground: [Wrench::ZERO; 2],
             motor_torques: JointVector::ZERO,
+            trunk_velocity: None,
             standing_height,
             mechanism,
             parameters: parameters.clone(),
@@ -102,7 +105,10 @@ impl Plant {
         self.periods += 1;
         let at_rest = self.robot.at_rest();
         let moving = std::mem::replace(&mut self.robot, at_rest);
+        // What it does when it is let go is no acceleration.
+        self.trunk_velocity = None;
         let measurement = self.measure();
+        self.trunk_velocity = None;
         self.robot = moving;
         measurement
     }
@@ -193,13 +199,19 @@ impl Plant {
         angles[Joint::FootPitch] = (-up.x).atan2(up.z);
 
         let trunk_to_world = kinematics.link_to_world(Mechanism::TRUNK).rotation;
-        let (angular_rate, _) = self.robot.link_velocity(
+        let (angular_rate, trunk_velocity) = self.robot.link_velocity(
             &self.tree,
             &self.mechanism,
             &kinematics,
             Mechanism::TRUNK,
             kinematics.origin[Mechanism::TRUNK],
         );
+        // The mean acceleration of the period, whatever engine moves the robot. Who measures again in the same period
+        // has moved it by hand.
+        let before = self.trunk_velocity.filter(|(_, period)| *period < self.periods);
+        let acceleration =
+            before.map_or_else(Vector3::zeros, |(velocity, _)| (trunk_velocity - velocity) / self.period);
+        self.trunk_velocity = Some((trunk_velocity, self.periods));
         let sensed = self.sensors.sense(&Measurement {
             sample: self.periods,
             angles,
@@ -208,6 +220,8 @@ impl Plant {
             orientation: (self.world_to_level * trunk_to_world).into_inner(),
             angular_rate: trunk_to_world.inverse() * angular_rate,
             currents: self.drive.currents(&self.motor_torques),
+            specific_force: trunk_to_world.inverse() * (acceleration - self.body.gravity),
+            missing: SensorGroups::NONE,
         });
         self.fault_injector.receive(sensed, &self.disturbances.sensor_faults, self.period)
     }

@@ -1,16 +1,18 @@
 //! Messages of earlier versions, read as those of this one.
 //!
-//! A recording holds the layout of its messages. Where this version has only added fields for which zero means that
-//! there is nothing, a message is taken over field by field.
+//! A recording holds the layout of its messages. Where this version has only added fields, a message is taken over
+//! field by field. What was added is zero, which means that there is nothing, or what [`LACKING`] says.
 
 use std::ops::Range;
 
+use interface::SensorGroup;
 use wire::{Layout, NumberType};
 
 use crate::schema;
 
 /// Layouts of earlier versions that can be read.
-const OLDER: [&str; 8] = [
+const OLDER: [&str; 9] = [
+    "halfstep.Measurement.v2",
     "halfstep.Request.v2",
     "halfstep.Request.v3",
     "halfstep.Request.v4",
@@ -21,12 +23,20 @@ const OLDER: [&str; 8] = [
     "halfstep.Report.v3",
 ];
 
+/// What an integer that was added later is in messages of an earlier layout: layout, field, value.
+const LACKING: [(&str, &str, u64); 1] =
+    [("halfstep.Measurement.v2", "missing", SensorGroup::SpecificForce.code() as u64)];
+
 /// How a message of an earlier version becomes one of this version.
 pub(crate) struct OlderLayout {
     /// Size of the earlier message (bytes).
     from_size: usize,
-    /// Size of this version's message (bytes).
-    to_size: usize,
+    /// This version's message with what the earlier one lacks.
+    lacking: Vec<u8>,
+    /// What it lacks: the fields that were added since, which hold nothing.
+    added: Vec<&'static str>,
+    /// The name of the earlier layout.
+    name: String,
     /// Where each field was, and where it begins now.
     fields: Vec<(Range<usize>, usize)>,
 }
@@ -54,7 +64,19 @@ impl OlderLayout {
             fields.push((from_size..from_size + size, field.offset));
             from_size += size;
         }
-        Some(Self { from_size, to_size: layout.size, fields })
+        let was_there = |field: &wire::Field| fields.iter().any(|(_, at)| *at == field.offset);
+        let added = layout.fields.iter().filter(|field| !was_there(field)).map(|field| field.name).collect();
+        let mut lacking = vec![0; layout.size];
+        for (_, field, value) in LACKING.iter().filter(|(older, ..)| *older == name) {
+            let at = layout.fields.iter().find(|known| known.name == *field)?.offset;
+            lacking[at..at + 8].copy_from_slice(&value.to_le_bytes());
+        }
+        Some(Self { from_size, lacking, added, name: name.to_owned(), fields })
+    }
+
+    /// What messages of this layout lack, for people.
+    pub(crate) fn text(&self) -> String {
+        format!("`{}` has no {}", self.name, self.added.join(", "))
     }
 
     /// The bytes of this version's message; `None` if there are too many or too few.
@@ -62,7 +84,7 @@ impl OlderLayout {
         if bytes.len() != self.from_size {
             return None;
         }
-        let mut message = vec![0; self.to_size];
+        let mut message = self.lacking.clone();
         for (from, to) in &self.fields {
             message[*to..to + from.len()].copy_from_slice(&bytes[from.clone()]);
         }
@@ -72,7 +94,7 @@ impl OlderLayout {
 
 #[cfg(test)]
 mod tests {
-    use wire::{ReplyMessage, ReportMessage, RequestMessage, WireLayout};
+    use wire::{MeasurementMessage, ReplyMessage, ReportMessage, RequestMessage, WireLayout};
 
     use super::*;
 
@@ -126,6 +148,18 @@ mod tests {
         assert_eq!((reply.id, reply.mode, reply.latched, reply.effect_half_step), (0, None, None, 5));
         assert_eq!((reply.place, reply.arrival), (None, None));
         assert_eq!((reply.granted.turn, reply.granted.speed), (0.1, 1.2));
+    }
+
+    /// This version's layout without what inertial measurement units did not tell before.
+    #[test]
+    fn a_measurement_of_an_earlier_version_has_no_accelerometer() {
+        let layout = MeasurementMessage::layout();
+        let mut before = Layout { type_name: "halfstep.Measurement.v2", ..layout.clone() };
+        before.fields.retain(|field| !["imu_specific_force", "missing"].contains(&field.name));
+        let older = OlderLayout::of(&schema::text(&before), &layout).unwrap();
+        let measurement = MeasurementMessage::decode(&older.convert(&[0; 656]).unwrap()).unwrap().measurement();
+        assert_eq!(measurement.missing.iter().collect::<Vec<_>>(), [SensorGroup::SpecificForce]);
+        assert_eq!(older.text(), "`halfstep.Measurement.v2` has no imu_specific_force, missing");
     }
 
     /// This version's layout without the fields of destinations, under an earlier name.

@@ -179,6 +179,14 @@ impl Recording {
         Some(format!("{}: truncated, valid up to {seconds:.3} s: {damage}", self.path.display()))
     }
 
+    /// What the messages read so far lack because an earlier version wrote them; one text for each kind of message.
+    pub fn lacking(&self) -> Vec<String> {
+        let mut lacking: Vec<_> =
+            self.channels.values().filter_map(|(_, older)| Some(older.as_ref()?.text())).collect();
+        lacking.sort();
+        lacking
+    }
+
     /// The part of the recording in an MCAP record, if it is one.
     fn item(&mut self, record: Record) -> Result<Option<Item>, RecordError> {
         match record {

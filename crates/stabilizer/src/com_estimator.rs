@@ -27,7 +27,10 @@ pub fn estimate_com(
 
     // The rotation that levels: small, and about a horizontal axis.
     let levelling = measurement.up_over_sole(kinematics).cross(&Vector3::z());
-    let sole_rate = trunk_to_sole * measurement.trunk_rate - links[Mechanism::TRUNK].angular;
+    // Without a gyro the sole is taken to lie still.
+    let sole_rate = measurement
+        .trunk_rate
+        .map_or_else(Vector3::zeros, |rate| trunk_to_sole * rate - links[Mechanism::TRUNK].angular);
 
     let at_rest = contact.zmp.map_or_else(Vector3::zeros, |zmp| zmp.push(0.0));
     let swing_foot = links[tree.foot(Side::Left)].at(&at_rest) * contact.swing_share();
@@ -35,6 +38,15 @@ pub fn estimate_com(
         position: position + levelling.cross(&position),
         velocity: velocity - swing_foot + levelling.cross(&velocity) + sole_rate.cross(&(position - at_rest)),
     }
+}
+
+/// Acceleration of the trunk's origin less gravity, levelled, in support axes (m/s²), if it is measured.
+///
+/// * `kinematics` – of the measured joint angles
+pub fn level_specific_force(kinematics: &Kinematics, measurement: &SupportFrameMeasurement) -> Option<Vector3<f64>> {
+    let over_sole = kinematics.rotation[Mechanism::TRUNK] * measurement.specific_force?;
+    let levelling = measurement.up_over_sole(kinematics).cross(&Vector3::z());
+    Some(over_sole + levelling.cross(&over_sole))
 }
 
 #[cfg(test)]
@@ -75,7 +87,8 @@ mod tests {
             support_foot: Wrench::ZERO,
             swing_foot: Wrench::ZERO,
             up_in_trunk: now.1.transpose() * Vector3::z(),
-            trunk_rate,
+            trunk_rate: Some(trunk_rate),
+            specific_force: None,
         };
         let estimated = estimate_com(&tree, &kinematics, &measurement, contact).velocity;
         (estimated - (after.0 - before.0) / (2.0 * h)).norm()
@@ -113,7 +126,8 @@ mod tests {
             swing_foot: Wrench::ZERO,
             up_in_trunk: Vector3::z(),
             // The trunk, and with it the other leg, turns about the left hip, as the left foot is at rest.
-            trunk_rate: -(kinematics.com_velocity(&tree, &rates).1[tree.foot(Side::Left)].angular),
+            trunk_rate: Some(-(kinematics.com_velocity(&tree, &rates).1[tree.foot(Side::Left)].angular)),
+            specific_force: None,
         };
         let estimated = estimate_com(&tree, &kinematics, &measurement, &contact(left.xy(), [false, true])).velocity;
         let h = 1e-6;

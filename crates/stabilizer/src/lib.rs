@@ -2,21 +2,24 @@
 //!
 //! The data flow in this order:
 //!
-//! 1. [`SupportFrameMeasurement`]: a measurement, expressed in support coordinates.
-//! 2. [`ZmpEstimator`], [`estimate_com`]: zero-moment point (ZMP), contacts, and centre of mass; [`ComPrediction`]
-//!    bridges missing samples.
-//! 3. [`BalanceState`]: how the robot balances, as planned and as estimated.
-//! 4. [`DcmFeedback`]: their difference moves the ZMP by small angles of the ankles.
-//! 5. [`LandingCompliance`]: the legs yield to unexpected forces at touchdown.
-//! 6. [`WalkOdometry`]: where the walk has come to.
+//! 1. [`AttitudeEstimator`]: the attitude of the trunk and the bias of its gyro.
+//! 2. [`SupportFrameMeasurement`]: a measurement, expressed in support coordinates.
+//! 3. [`ZmpEstimator`], [`estimate_com`]: zero-moment point (ZMP), contacts, and centre of mass as measured.
+//! 4. [`ComFilter`]: the centre of mass without the offset of its measurement, also between samples; external forces.
+//! 5. [`BalanceState`]: how the robot balances, as planned and as estimated.
+//! 6. [`DcmFeedback`]: their difference moves the ZMP by small angles of the ankles.
+//! 7. [`LandingCompliance`]: the legs yield to unexpected forces at touchdown.
+//! 8. [`WalkOdometry`]: where the walk has come to.
 //!
 //! Everything is expressed in support coordinates: as if the robot stood on its right foot, O under the ankle, x along
 //! the foot.
 
+mod attitude_estimator;
 mod balance_state;
 mod com_estimator;
-mod com_prediction;
+mod com_filter;
 mod dcm_feedback;
+mod ground_slope_filter;
 mod landing_compliance;
 mod odometry;
 mod parameters;
@@ -24,10 +27,12 @@ mod proportions;
 mod support_frame_measurement;
 mod zmp_estimator;
 
+pub use attitude_estimator::AttitudeEstimator;
 pub use balance_state::{BalanceState, SupportFoot};
-pub use com_estimator::estimate_com;
-pub use com_prediction::ComPrediction;
+pub use com_estimator::{estimate_com, level_specific_force};
+pub use com_filter::{AccelerationEvidence, ComFilter};
 pub use dcm_feedback::{AnkleLean, DcmFeedback, FeedbackParameters};
+pub use ground_slope_filter::GroundSlopeFilter;
 pub use landing_compliance::{LandingCompliance, LandingParameters};
 pub use odometry::WalkOdometry;
 pub use parameters::Parameters;

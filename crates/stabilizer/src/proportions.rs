@@ -23,10 +23,14 @@ pub(crate) struct StabilizerProportions {
     pub dcm_error_large: f64,
     /// Largest error of the divergent component that counts (m).
     pub dcm_error_max: f64,
+    /// Largest offset of the centre of mass that is believed (m).
+    pub com_offset_max: f64,
     /// Largest ZMP shift of foot damping control (m).
     pub foot_damping_zmp_shift_max: f64,
     /// Largest change of a foot's height at touchdown (m).
     pub landing_lift_max: f64,
+    /// Standard deviation of the ground's height from footprint to footprint (m).
+    pub unevenness: f64,
 }
 
 /// A sixth of the distance of the feet: the ankles of both feet push, and the weight sways as the robot comes to rest
@@ -38,10 +42,15 @@ const DCM_ERROR_OF_PUSH: f64 = 0.03;
 const DCM_ERROR_LARGE: f64 = 0.03;
 /// A third of the leg length: more is a glitch of a sensor, or no step can correct it (m).
 const DCM_ERROR_MAX: f64 = 0.3;
+/// An inertial measurement unit askew by 2°, or an eighth of the robot's weight on its back (m).
+const COM_OFFSET_MAX: f64 = 0.03;
 /// Far outside the sole: with the stiffness of the ankle a tilt of the sole by 5° shifts the ZMP by as much (m).
 const FOOT_DAMPING_ZMP_SHIFT_MAX: f64 = 0.6;
 /// 3 % of the leg length: bumps and holes up to this size (m).
 const LANDING_LIFT_MAX: f64 = 0.03;
+/// Tiles between 12 mm below the mean and 12 mm above it: with less, stones are taken for slopes; with more, slopes are
+/// seen late (m).
+const UNEVENNESS: f64 = 0.007;
 
 impl StabilizerProportions {
     /// The proportions of a robot.
@@ -56,8 +65,10 @@ impl StabilizerProportions {
             dcm_error_of_push: DCM_ERROR_OF_PUSH * scale,
             dcm_error_large: DCM_ERROR_LARGE * scale,
             dcm_error_max: DCM_ERROR_MAX * scale,
+            com_offset_max: COM_OFFSET_MAX * scale,
             foot_damping_zmp_shift_max: FOOT_DAMPING_ZMP_SHIFT_MAX * scale,
             landing_lift_max: LANDING_LIFT_MAX * scale,
+            unevenness: UNEVENNESS * scale,
         }
     }
 }

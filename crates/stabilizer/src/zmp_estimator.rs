@@ -44,6 +44,11 @@ impl ContactEstimate {
     /// No foot touches the ground.
     pub const AIRBORNE: Self = Self { zmp: None, margin: f64::NEG_INFINITY, loads: [0.0; 2], in_contact: [false; 2] };
 
+    /// The support foot carries the weight (N), as planned, where its sensors do not tell.
+    pub fn unknown(weight: f64) -> Self {
+        Self { loads: [weight, 0.0], in_contact: [true, false], ..Self::AIRBORNE }
+    }
+
     /// Share of the load on the swing foot (-); 0 in the air.
     pub fn swing_share(&self) -> f64 {
         let [support, swing] = [0, 1].map(|foot| if self.in_contact[foot] { self.loads[foot] } else { 0.0 });
@@ -137,7 +142,8 @@ mod tests {
             support_foot,
             swing_foot,
             up_in_trunk: Vector3::z(),
-            trunk_rate: Vector3::zeros(),
+            trunk_rate: None,
+            specific_force: None,
         }
     }
 

@@ -56,6 +56,8 @@ mod tests {
             orientation: Quaternion::identity(),
             angular_rate: Vector3::zeros(),
             currents: JointVector::ZERO,
+            specific_force: Vector3::z() * model::GRAVITY,
+            missing: interface::SensorGroups::NONE,
         }
     }
 

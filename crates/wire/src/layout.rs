@@ -100,6 +100,7 @@ macro_rules! wire_layout {
 wire_layout!(SetpointMessage as type_name::<SetpointMessage>(), { tick, time_ns, angles, rates, feed_forward });
 wire_layout!(MeasurementMessage as type_name::<MeasurementMessage>(), {
     tick, time_ns, sample, angles, rates, wrench_right, wrench_left, imu_orientation, imu_rate, motor_current,
+    imu_specific_force, missing,
 });
 wire_layout!(RequestMessage as type_name::<RequestMessage>(), {
     not_before, present, intent, source, lasting, turn, speed, extension, sidestep, velocity, places, place_count,

@@ -2,7 +2,7 @@
 
 use std::fmt::{Debug, Display, Write};
 
-use interface::{Fault, Intent, Lifetime, Mode, PushOutcome, Reason, Source, Verdict};
+use interface::{Fault, Intent, Lifetime, Mode, PushOutcome, Reason, SensorGroup, Source, Verdict};
 
 use crate::{Layout, NumberType, PROTOCOL, layouts};
 
@@ -31,6 +31,7 @@ pub fn python_messages() -> String {
     text.push_str(&codes("Mode", "IntEnum", Mode::ALL, Mode::code));
     text.push_str(&codes("Fault", "IntFlag", Fault::ALL, Fault::code));
     text.push_str(&codes("PushOutcome", "IntEnum", PushOutcome::ALL, PushOutcome::code));
+    text.push_str(&codes("SensorGroup", "IntFlag", SensorGroup::ALL, SensorGroup::code));
     for layout in layouts() {
         text.push_str(&class(&layout));
     }

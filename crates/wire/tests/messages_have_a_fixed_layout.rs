@@ -42,9 +42,10 @@ fn push_messages_have_a_fixed_layout() {
 
 #[test]
 fn measurement_message_has_a_fixed_layout() {
-    assert_layout!(MeasurementMessage, 656, {
+    assert_layout!(MeasurementMessage, 688, {
         tick @ 0 + 8, time_ns @ 8 + 8, sample @ 16 + 8, angles @ 24 + 160, rates @ 184 + 160, wrench_right @ 344 + 48,
         wrench_left @ 392 + 48, imu_orientation @ 440 + 32, imu_rate @ 472 + 24, motor_current @ 496 + 160,
+        imu_specific_force @ 656 + 24, missing @ 680 + 8,
     });
 }
 

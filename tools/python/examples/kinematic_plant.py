@@ -7,7 +7,7 @@ import csv
 import math
 import sys
 
-from halfstep import Measurement, Plant
+from halfstep import Measurement, Plant, SensorGroup
 
 MECHANISM = 0x4C79F1ADF91719FD  # `halfstep check` prints it
 WEIGHT = 73.031 * 9.80665
@@ -44,7 +44,12 @@ plant = Plant(MECHANISM, *sys.argv[1:], lockstep=True)
 with open("config/nominal_half_step.csv") as file:
     row = next(csv.DictReader(line for line in file if not line.startswith("#")))
 angles = tuple(float(row[f"joint_{number:02}_angle_rad"]) for number in range(1, 21))
-first = Measurement(angles=angles, imu_orientation=trunk(angles, 0), wrench_right=(0, 0, WEIGHT, 0, 0, 0))
+first = Measurement(
+    angles=angles,
+    imu_orientation=trunk(angles, 0),
+    wrench_right=(0, 0, WEIGHT, 0, 0, 0),
+    missing=SensorGroup.SPECIFIC_FORCE,  # it has no accelerometer
+)
 for setpoint, measurement in plant.lockstep(first, ticks=5000):
     measurement.angles[2:] = setpoint.angles[2:]
     measurement.rates[2:] = setpoint.rates[2:]

@@ -9,7 +9,7 @@ from enum import IntEnum, IntFlag
 
 from .message import Message
 
-PROTOCOL = 6
+PROTOCOL = 7
 """The version of all layouts and meanings."""
 
 
@@ -104,6 +104,7 @@ class Fault(IntFlag):
     FALLEN = 256  # the robot has fallen
     OUT_OF_REACH = 1024  # the plan needed a foot out of a leg's reach
     MEASUREMENT_FROZEN = 2048  # a sensor's value has stopped changing
+    MEASUREMENT_MISSING = 131072  # a sensor has no value
     MEASUREMENT_INCONSISTENT = 4096  # sensors contradict each other
     JOINT_OFF_SETPOINT = 8192  # a joint is not where it was commanded to be
     UNEXPECTED_POSTURE = 16384  # the robot is not in the posture in which the controller begins
@@ -118,6 +119,13 @@ class PushOutcome(IntEnum):
     OUT_OF_RANGE = 2  # a push must last 1 ms to 10 s and have at most 10000 N·s
     TOO_MANY = 3  # too many pushes act at the same time
     EXTERNAL_ENGINE = 4  # another program computes the physics: it takes pushes from --disturbances only
+class SensorGroup(IntFlag):
+    JOINTS = 1  # angles and rates of the joints
+    ORIENTATION = 2  # orientation of the trunk
+    ANGULAR_RATE = 4  # angular rate of the trunk
+    SPECIFIC_FORCE = 8  # accelerometer of the trunk
+    RIGHT_FOOT = 16  # force sensor of the right foot
+    LEFT_FOOT = 32  # force sensor of the left foot
 
 
 class Setpoint(Message):
@@ -144,7 +152,7 @@ class Setpoint(Message):
 
 
 class Measurement(Message):
-    """`halfstep.Measurement.v2`, 656 bytes."""
+    """`halfstep.Measurement.v3`, 688 bytes."""
 
     tick: int
     time_ns: int
@@ -156,6 +164,8 @@ class Measurement(Message):
     imu_orientation: Array[c_double]
     imu_rate: Array[c_double]
     motor_current: Array[c_double]
+    imu_specific_force: Array[c_double]
+    missing: int
 
     _fields_ = [
         ("tick", c_uint64),
@@ -168,12 +178,14 @@ class Measurement(Message):
         ("imu_orientation", c_double * 4),
         ("imu_rate", c_double * 3),
         ("motor_current", c_double * 20),
+        ("imu_specific_force", c_double * 3),
+        ("missing", c_uint64),
     ]
 
     @staticmethod
     def type_name() -> str:
         """What shared memory calls it."""
-        return "halfstep.Measurement.v2"
+        return "halfstep.Measurement.v3"
 
 
 class Request(Message):

@@ -1,12 +1,16 @@
 //! What a measurement says about the robot: the contacts of its feet, its tilt, and its centre of mass.
 
-use interface::{Fault, Faults, Measurement};
-use model::ComState;
-use nalgebra::Vector2;
+use interface::{Fault, Faults, Measurement, SensorGroup};
+use model::{ComState, GRAVITY, Mechanism, Mirrored, Side};
+use nalgebra::{Vector2, Vector3};
 use pattern::GaitPhase;
-use stabilizer::{BalanceState, ComPrediction, SupportFoot, SupportFrameMeasurement, estimate_com};
+use stabilizer::{
+    AccelerationEvidence, BalanceState, ContactEstimate, SupportFoot, SupportFrameMeasurement, estimate_com,
+    level_specific_force,
+};
 
 use super::Controller;
+use crate::measurement_validator::UsableSample;
 use crate::sensor_consistency::{Expectation, ExpectedSupport};
 
 /// With the measured ZMP this far inside a sole (m), the whole sole is on the ground.
@@ -16,8 +20,8 @@ const FLAT_MARGIN: f64 = 0.005;
 const EITHER_FOOT: f64 = 0.18;
 
 impl Controller {
-    /// Absorbs a measurement and returns the measured centre of mass; `None` without a valid measurement, and in the
-    /// air.
+    /// Absorbs what arrived within a period, and returns the centre of mass as a new sample has it; `None` without one,
+    /// and in the air.
     pub(super) fn estimate(
         &mut self,
         measurement: Option<&Measurement>,
@@ -27,8 +31,14 @@ impl Controller {
         // A robot that has fallen is moved by others.
         let followed = self.last_setpoint.filter(|_| self.state.plays_gait());
         let support = self.expected_support();
-        let expected = followed.as_ref().map(|setpoint| Expectation { setpoint, yielding: &self.yielding, support });
-        let valid = self.validator.update(measurement, expected.as_ref(), dt, faults);
+        self.expect_deflection(measurement, dt);
+        let expected = followed.as_ref().map(|setpoint| Expectation {
+            setpoint,
+            yielding: &self.yielding,
+            deflection: self.deflection.angles(),
+            support,
+        });
+        let usable = self.validator.update(measurement, expected.as_ref(), dt, faults);
         if self.validator.is_stale() && self.state.latched().is_none() {
             self.latch(Fault::MeasurementStale);
         }
@@ -36,36 +46,74 @@ impl Controller {
             faults.insert(Fault::Fallen);
             self.state.fall();
         }
-        let support = self.pattern.gait().half_step().support;
-        let Some((measurement, up_in_trunk)) = valid else {
+        self.com_filter.advance(dt);
+        self.since_sample += dt;
+        let had_fault = std::mem::replace(&mut self.has_sensor_fault, self.validator.rejection().is_some());
+        if self.has_sensor_fault && !had_fault {
+            self.com_filter.distrust();
+            self.ground_slope.distrust();
+        }
+        let Some(sample) = usable else {
+            let support = self.pattern.gait().half_step().support;
             self.odometry.update(support, self.reference.kinematics(), None, dt);
             return None;
         };
-        self.measured_angles = Some(measurement.angles);
         if self.validator.has_found_robot() {
-            self.find_robot(&measurement.angles);
+            self.find_robot(&sample.measurement.angles);
         }
+        let since_sample = std::mem::take(&mut self.since_sample);
+        self.absorb(&sample, since_sample, faults)
+    }
+
+    /// Absorbs what can be used of a sample.
+    ///
+    /// * `dt` – time since the sample before (s)
+    fn absorb(&mut self, sample: &UsableSample, dt: f64, faults: &mut Faults) -> Option<ComState> {
+        let UsableSample { mut measurement, unusable, .. } = *sample;
+        self.measured_angles = Some(measurement.angles);
+        let usable = |group| !unusable.contains(group);
+        let orientation = usable(SensorGroup::Orientation).then_some(&measurement.orientation);
+        let rate = usable(SensorGroup::AngularRate).then_some(&measurement.angular_rate);
+        self.attitude.update(orientation, rate, dt);
+        measurement.angular_rate -= self.attitude.gyro_bias();
+
+        let up_in_trunk = self.attitude.up_in_trunk();
         let gait = self.pattern.gait_mut();
-        let mut measured = SupportFrameMeasurement::new(support, gait.walk().mirror(), measurement, up_in_trunk);
+        let (support, mirror) = (gait.half_step().support, gait.walk().mirror());
+        let up = up_in_trunk.unwrap_or_else(Vector3::z);
+        let mut measured = SupportFrameMeasurement::new(support, mirror, &measurement, up, unusable);
+        self.kinematics.compute_fixed_base(&self.tree, &measured.angles);
+        if up_in_trunk.is_none() {
+            // Nothing tells the vertical but a sole that lies flat.
+            let vertical = gait.sensed_vertical().push(1.0).normalize();
+            measured.up_in_trunk = self.kinematics.rotation[Mechanism::TRUNK].tr_mul(&vertical);
+        }
         // An orientation that is known to be askew still serves to come to a stand.
         if let Some(askew) = self.gravity.askew(support) {
             measured.up_in_trunk = (measured.up_in_trunk + askew.push(0.0)).normalize();
         }
-        self.kinematics.compute_fixed_base(&self.tree, &measured.angles);
-        self.odometry.update(support, &self.kinematics, Some(&measurement.orientation), dt);
-        self.contact = self.zmp_estimator.update(&measured, &self.kinematics, &self.mechanism, dt);
-        if self.contact.zmp.is_none() {
+        let heading = self.attitude.attitude().filter(|_| usable(SensorGroup::Orientation));
+        self.odometry.update(support, &self.kinematics, heading.as_deref(), dt);
+        self.contact = if Side::BOTH.into_iter().all(|side| usable(SensorGroup::of_foot(side))) {
+            self.zmp_estimator.update(&measured, &self.kinematics, &self.mechanism, dt)
+        } else {
+            ContactEstimate::unknown(self.tree.mass * GRAVITY)
+        };
+        if self.contact.in_contact == [false, false] {
             faults.insert(Fault::InTheAir);
             self.feedback.release();
-            self.com_prediction = ComPrediction::default();
+            self.com_filter.restart();
             return None;
         }
         // A sole that is not on an edge lies flat; bearing alone, it leans as the floor does.
         let is_flat = self.contact.margin > FLAT_MARGIN;
         let up = measured.up_over_sole(&self.kinematics).xy();
-        if is_flat && !self.contact.in_contact[1] {
-            gait.update_ground_slope(up, dt);
+        let tells_ground =
+            [SensorGroup::Joints, SensorGroup::Orientation, SensorGroup::RightFoot, SensorGroup::LeftFoot];
+        if tells_ground.into_iter().all(usable) {
+            self.ground_slope.update(&self.mechanism, &measured, &self.kinematics, is_flat, self.contact.in_contact);
         }
+        gait.update_ground_slope(self.ground_slope.vertical(), dt);
         self.support_foot = self.contact.in_contact[0].then(|| {
             // Under the first sole the slope is not known yet: the plan leans first.
             let is_known = gait.half_step().index > 0;
@@ -74,8 +122,30 @@ impl Controller {
         });
         self.tilt = self.reference.tilt(&measured.up_in_trunk, gait.sensed_vertical());
         let com = estimate_com(&self.tree, &self.kinematics, &measured, &self.contact);
-        self.com_prediction.absorb(&com, &self.reference.com, dt);
+        let planned_force = self.reference.specific_force_of_trunk();
+        let force = level_specific_force(&self.kinematics, &measured);
+        let evidence = AccelerationEvidence {
+            zmp: self.contact.zmp.map(|zmp| zmp - self.reference.zmp),
+            acceleration: force.map(|force| (force - planned_force).xy()),
+            is_flat,
+        };
+        self.com_filter.absorb(&com, &self.reference.com, &evidence);
         Some(com)
+    }
+
+    /// Lets the drives yield as the measured forces of the ground tell.
+    fn expect_deflection(&mut self, measurement: Option<&Measurement>, dt: f64) {
+        let Some(measurement) = measurement else { return };
+        let gait = self.pattern.gait();
+        let (support, mirror) = (gait.half_step().support, gait.walk().mirror());
+        let [bearing, swinging] = support.support_first(measurement.feet);
+        let feet = if support == Side::Right {
+            [bearing, swinging]
+        } else {
+            [bearing, swinging].map(|foot| foot.mirrored(mirror))
+        };
+        let torques = self.reference.torques_beyond(&self.tree, &self.mechanism, feet);
+        self.deflection.update(&mirror.to_physical(support, &torques), dt);
     }
 
     /// Latches a fault if the measured vertical is not the one by which the robot moves.

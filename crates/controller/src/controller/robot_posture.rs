@@ -5,6 +5,7 @@
 
 use interface::{Fault, Rejection, Sensor};
 use model::{Joint, JointVector};
+use stabilizer::GroundSlopeFilter;
 
 use super::Controller;
 use crate::pattern::Pattern;
@@ -51,6 +52,8 @@ impl Controller {
         generator.clone_from(&self.rest);
         self.limiter.start_at(from);
         self.unexpected_posture = None;
+        // It may stand elsewhere.
+        self.ground_slope = GroundSlopeFilter::new(&self.mechanism);
         self.state.recover(Recovery::begin(from, &generator.physical_motion().angles));
     }
 }

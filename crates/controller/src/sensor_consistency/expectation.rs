@@ -10,6 +10,8 @@ pub(crate) struct Expectation<'a> {
     pub setpoint: &'a Setpoint,
     /// The part of its angles by which feedback leans on the ground (rad): the drives yield by up to that.
     pub yielding: &'a JointVector,
+    /// By how much its drives yield to forces of the ground that are not planned (rad).
+    pub deflection: &'a JointVector,
     /// What carries the robot; `None` where anything may, as in a stand.
     pub support: Option<ExpectedSupport>,
 }

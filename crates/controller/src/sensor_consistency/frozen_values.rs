@@ -1,7 +1,9 @@
 //! Values that stay the same to the bit although the robot moves.
 
-use interface::{Fault, Measurement, Rejection, Sensor};
+use interface::{Fault, Measurement, Sensor};
 use model::{Joint, JointVector, PerJoint, Side};
+
+use crate::rejected_sensors::RejectedSensors;
 
 /// Longest time for which values may stay the same while the robot moves (s).
 const FROZEN_MAX: f64 = 0.02;
@@ -38,7 +40,7 @@ struct Repetition {
 }
 
 impl FrozenValues {
-    /// Absorbs a sample, and names the sensor that is frozen.
+    /// Absorbs a sample, and rejects the sensors that are frozen.
     ///
     /// * `last` – the sample before
     /// * `commanded` – joint rates (rad/s)
@@ -50,13 +52,13 @@ impl FrozenValues {
         commanded: &JointVector,
         weight: f64,
         dt: f64,
-    ) -> Option<Rejection> {
+        rejected: &mut RejectedSensors,
+    ) {
         let moves = |joint: Joint| commanded[joint].abs() > MOVING;
         let is_moving = Joint::ALL.into_iter().any(moves);
-        let mut frozen = None;
         let mut suspect = |is_frozen: bool, sensor: Sensor| {
-            if is_frozen && frozen.is_none() {
-                frozen = Some(Rejection { fault: Fault::MeasurementFrozen, sensor });
+            if is_frozen {
+                rejected.insert(Fault::MeasurementFrozen, sensor);
             }
         };
         for joint in Joint::ALL.into_iter().filter(|joint| joint.is_powered()) {
@@ -74,7 +76,6 @@ impl FrozenValues {
         suspect(self.orientation.is_frozen(is_same, is_moving, dt), Sensor::Orientation);
         let is_same = sample.angular_rate == last.angular_rate;
         suspect(self.angular_rate.is_frozen(is_same, is_moving, dt), Sensor::AngularRate);
-        frozen
     }
 }
 

@@ -1,10 +1,11 @@
 //! Joint angles against their setpoints and against their rates.
 
-use interface::{Fault, Measurement, Rejection, Sensor};
+use interface::{Fault, Measurement, Sensor};
 use model::{Joint, JointVector};
 
 use super::expectation::Expectation;
 use super::parameters::ConsistencyParameters;
+use crate::rejected_sensors::RejectedSensors;
 
 /// Time over which the mean tracking error is formed (s): pushes and impacts are shorter.
 const BIAS_TIME_CONSTANT: f64 = 0.3;
@@ -24,7 +25,7 @@ pub(super) struct JointConsistency {
 }
 
 impl JointConsistency {
-    /// Absorbs a sample, and names the joint that is off.
+    /// Absorbs a sample, and rejects the joints that are off.
     pub(super) fn update(
         &mut self,
         sample: &Measurement,
@@ -32,14 +33,16 @@ impl JointConsistency {
         expected: &Expectation,
         parameters: &ConsistencyParameters,
         dt: f64,
-    ) -> Option<Rejection> {
+        rejected: &mut RejectedSensors,
+    ) {
         let errors = JointVector::from_fn(|joint| {
             let (angle, setpoint) = (sample.angles[joint], expected.setpoint.angles[joint]);
             let unyielding = setpoint - expected.yielding[joint];
-            angle - angle.max(setpoint.min(unyielding)).min(setpoint.max(unyielding))
+            let deflected = setpoint + expected.deflection[joint];
+            let bounds = [setpoint.min(unyielding).min(deflected), setpoint.max(unyielding).max(deflected)];
+            angle - angle.max(bounds[0]).min(bounds[1])
         });
         let rate_errors = self.rate_errors(sample, last, dt);
-        let mut rejection = None;
         // The first two joints are those of the foot on the ground, which nothing measures.
         for joint in Joint::ALL.into_iter().filter(|joint| joint.is_powered()) {
             let is_astray = errors[joint].abs() > parameters.tracking_error_max;
@@ -48,19 +51,15 @@ impl JointConsistency {
                 self.bias[joint] += (errors[joint] - self.bias[joint]) * dt / (BIAS_TIME_CONSTANT + dt);
             }
             let is_biased = self.bias[joint].abs() > parameters.tracking_bias_max;
-            let found = if is_astray || is_biased {
-                Some(Rejection { fault: Fault::JointOffSetpoint, sensor: Sensor::JointAngle(joint) })
+            if is_astray || is_biased {
+                rejected.insert(Fault::JointOffSetpoint, Sensor::JointAngle(joint));
             } else if rate_errors[joint].abs() > parameters.rate_error_max {
                 // The setpoint is the third witness.
                 let is_angle_off = errors[joint].abs() > parameters.tracking_bias_max;
                 let sensor = if is_angle_off { Sensor::JointAngle(joint) } else { Sensor::JointRate(joint) };
-                Some(Rejection { fault: Fault::MeasurementInconsistent, sensor })
-            } else {
-                None
-            };
-            rejection = rejection.or(found);
+                rejected.insert(Fault::MeasurementInconsistent, sensor);
+            }
         }
-        rejection
     }
 
     /// The measured angles minus those that the rates lead to (rad).
@@ -78,7 +77,7 @@ impl JointConsistency {
 
 #[cfg(test)]
 mod tests {
-    use interface::Setpoint;
+    use interface::{Rejection, Setpoint};
 
     use super::*;
 
@@ -104,12 +103,14 @@ mod tests {
             orientation: nalgebra::Quaternion::identity(),
             angular_rate: nalgebra::Vector3::zeros(),
             currents: JointVector::ZERO,
+            specific_force: nalgebra::Vector3::z() * model::GRAVITY,
+            missing: interface::SensorGroups::NONE,
         };
         (setpoint, sample)
     }
 
     fn expectation(setpoint: &Setpoint) -> Expectation<'_> {
-        Expectation { setpoint, yielding: &JointVector::ZERO, support: None }
+        Expectation { setpoint, yielding: &JointVector::ZERO, deflection: &JointVector::ZERO, support: None }
     }
 
     /// What is found of a swing with wrong values from 1 s on, and when (s after it).
@@ -122,12 +123,23 @@ mod tests {
             if time >= 1.0 {
                 wrong(&mut sample);
             }
-            if let Some(rejection) = joints.update(&sample, &last, &expectation(&setpoint), &PARAMETERS, 1e-3) {
+            if let Some(rejection) = update(&mut joints, &sample, &last, &expectation(&setpoint)) {
                 return Some((time - 1.0, rejection));
             }
             last = sample;
         }
         None
+    }
+
+    fn update(
+        joints: &mut JointConsistency,
+        sample: &Measurement,
+        last: &Measurement,
+        expected: &Expectation,
+    ) -> Option<Rejection> {
+        let mut rejected = RejectedSensors::default();
+        joints.update(sample, last, expected, &PARAMETERS, 1e-3, &mut rejected);
+        rejected.first()
     }
 
     #[test]
@@ -144,13 +156,31 @@ mod tests {
             let mut joints = JointConsistency::default();
             let mut sample = Measurement { rates: JointVector::ZERO, ..swinging(0.0).1 };
             sample.angles[Joint::RightAnklePitch] = angle;
-            let expected = Expectation { setpoint: &setpoint, yielding: &leans, support: None };
-            (0..500).find_map(|_| joints.update(&sample, &sample, &expected, &PARAMETERS, 1e-3))
+            let expected =
+                Expectation { setpoint: &setpoint, yielding: &leans, deflection: &JointVector::ZERO, support: None };
+            (0..500).find_map(|_| update(&mut joints, &sample, &sample, &expected))
         };
         assert_eq!(found(0.0), None);
         assert_eq!(found(0.04), None);
         let beyond = found(-0.03).unwrap();
         assert_eq!(beyond.sensor, Sensor::JointAngle(Joint::RightAnklePitch));
+    }
+
+    /// A foot on a stone carries more than planned: the knee gives way by what its drive yields, and by no more.
+    #[test]
+    fn a_drive_that_yields_to_the_ground_is_consistent() {
+        let deflection = JointVector::unit(Joint::LeftKnee) * 0.03;
+        let found = |angle: f64| {
+            let (setpoint, mut sample) = swinging(0.0);
+            (sample.angles[Joint::LeftKnee], sample.rates) = (angle, JointVector::ZERO);
+            let mut joints = JointConsistency::default();
+            let expected = Expectation { deflection: &deflection, ..expectation(&setpoint) };
+            (0..500).find_map(|_| update(&mut joints, &sample, &sample, &expected))
+        };
+        assert_eq!(found(0.0), None);
+        assert_eq!(found(0.03), None);
+        assert_eq!(found(0.06).unwrap().sensor, Sensor::JointAngle(Joint::LeftKnee));
+        assert_eq!(found(-0.03).unwrap().sensor, Sensor::JointAngle(Joint::LeftKnee));
     }
 
     #[test]
@@ -181,7 +211,7 @@ mod tests {
         let named = (0..3000).find_map(|tick| {
             let (setpoint, mut sample) = swinging(f64::from(tick) * 1e-3);
             sample.angles[Joint::LeftKnee] += off(tick);
-            let rejection = joints.update(&sample, &last, &expectation(&setpoint), &PARAMETERS, 1e-3);
+            let rejection = update(&mut joints, &sample, &last, &expectation(&setpoint));
             last = sample;
             rejection.map(|rejection| (off(tick), rejection.sensor))
         });

@@ -13,12 +13,13 @@ pub(super) enum RunRow {
     Controller(ControllerRow),
 }
 
-/// Reads a run: a recording, or the folder that holds it. Returns where its files are truncated.
+/// Reads a run: a recording, or the folder that holds it. Returns where its files are truncated,
+/// and what messages of earlier versions lack.
 ///
 /// # Errors
 /// There is no recording, or it has another version.
 pub(super) fn each_row(run: &Path, mut take: impl FnMut(RunRow)) -> Result<Vec<String>, RecordError> {
-    let mut cuts = Vec::new();
+    let mut notes = Vec::new();
     for file in files_of(run)? {
         let mut recording = Recording::open(&file)?;
         let mut tick = TickMessage::default();
@@ -41,7 +42,8 @@ pub(super) fn each_row(run: &Path, mut take: impl FnMut(RunRow)) -> Result<Vec<S
                 _ => {}
             }
         }
-        cuts.extend(recording.cut());
+        notes.extend(recording.cut());
+        notes.extend(recording.lacking());
     }
-    Ok(cuts)
+    Ok(notes)
 }

@@ -1,7 +1,7 @@
 //! Measurement, plant → controller: one sample of all sensors.
 
 use iceoryx2::prelude::ZeroCopySend;
-use interface::Measurement;
+use interface::{Measurement, SensorGroups};
 use model::{Joint, PerJoint, Wrench};
 use nalgebra::Quaternion;
 
@@ -10,7 +10,7 @@ use super::{Latest, NEVER_WRITTEN};
 /// A [`Measurement`] as it lies in shared memory. Joints are physical and in the paper's order: 3 to 8 are always the
 /// right leg.
 #[derive(Clone, Copy, Debug, PartialEq, ZeroCopySend)]
-#[type_name("halfstep.Measurement.v2")]
+#[type_name("halfstep.Measurement.v3")]
 #[repr(C)]
 pub struct MeasurementMessage {
     /// Periods since the plant started.
@@ -33,6 +33,10 @@ pub struct MeasurementMessage {
     pub imu_rate: [f64; 3],
     /// (A); 0 for joints 1 and 2.
     pub motor_current: [f64; Joint::COUNT],
+    /// Acceleration of the trunk's origin less gravity, in trunk axes (m/s²).
+    pub imu_specific_force: [f64; 3],
+    /// The groups whose values are missing: the sum of [`SensorGroup`](interface::SensorGroup)s.
+    pub missing: u64,
 }
 
 impl MeasurementMessage {
@@ -50,6 +54,8 @@ impl MeasurementMessage {
             imu_orientation: [orientation.w, orientation.i, orientation.j, orientation.k],
             imu_rate: measurement.angular_rate.into(),
             motor_current: measurement.currents.0,
+            imu_specific_force: measurement.specific_force.into(),
+            missing: measurement.missing.0.into(),
         }
     }
 
@@ -64,6 +70,9 @@ impl MeasurementMessage {
             orientation: Quaternion::new(w, i, j, k),
             angular_rate: self.imu_rate.into(),
             currents: PerJoint(self.motor_current),
+            specific_force: self.imu_specific_force.into(),
+            // No group has a bit beyond.
+            missing: SensorGroups(self.missing as u32),
         }
     }
 }
@@ -88,6 +97,8 @@ impl Latest for MeasurementMessage {
         imu_orientation: [1.0, 0.0, 0.0, 0.0],
         imu_rate: [0.0; 3],
         motor_current: [0.0; Joint::COUNT],
+        imu_specific_force: [0.0; 3],
+        missing: 0,
     };
 
     fn tick(&self) -> u64 {
@@ -101,6 +112,7 @@ impl Latest for MeasurementMessage {
 
 #[cfg(test)]
 mod tests {
+    use interface::SensorGroup;
     use model::JointVector;
     use nalgebra::{UnitQuaternion, Vector3};
 
@@ -117,6 +129,8 @@ mod tests {
             orientation: UnitQuaternion::from_euler_angles(0.1, -0.2, 0.3).into_inner(),
             angular_rate: Vector3::new(0.4, 0.5, 0.6),
             currents: JointVector::unit(Joint::WaistRoll),
+            specific_force: Vector3::new(0.7, 0.8, 9.9),
+            missing: SensorGroups(SensorGroup::LeftFoot.code()),
         };
         let message = MeasurementMessage::new(7, 8, &measurement);
         assert_eq!((message.tick, message.time_ns), (7, 8));

@@ -81,6 +81,8 @@ pub(crate) fn measurement(tick: u64) -> MeasurementMessage {
         imu_orientation: [0.0, 1.0, 0.0, 0.0],
         imu_rate: [value; 3],
         motor_current: [value; Joint::COUNT],
+        imu_specific_force: [value; 3],
+        missing: 0,
     }
 }
 

@@ -10,29 +10,23 @@ use crate::proportions::PatternProportions;
 /// critically damped lag of the sensed one: drives and soles yield within a step and noise is white, but a slope stays
 /// over several half-steps.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct GroundSlopeEstimator {
+pub(crate) struct PlannedSlope {
     sensed: LowPass<Vector2<f64>>,
     planned: CriticallyDamped<Vector2<f64>>,
-    /// Time constant of the lag once the ground has been walked on for a while (s).
+    /// Time constant of the lag (s).
     time_constant: f64,
-    /// How long the ground has been sensed (s).
-    sensed_for: f64,
 }
 
 /// The steepest slope that is believed, as the sine of 12°. A robot that tilts more does not stand on its soles.
 const LEAN_MAX: f64 = 0.208;
 
-/// The first steps on unknown ground are followed so much faster (-).
-const TIME_CONSTANT_SHARE_AT_FIRST: f64 = 1.0 / 3.0;
-
-impl GroundSlopeEstimator {
+impl PlannedSlope {
     /// Level ground.
     pub(crate) fn new(proportions: &PatternProportions) -> Self {
         Self {
             sensed: LowPass::new(proportions.sensed_vertical_time_constant, Vector2::zeros()),
             planned: CriticallyDamped::default(),
             time_constant: proportions.slope_time_constant,
-            sensed_for: 0.0,
         }
     }
 
@@ -42,15 +36,12 @@ impl GroundSlopeEstimator {
     /// * `dt` – how long it lasted (s)
     pub(crate) fn update(&mut self, lean: Vector2<f64>, dt: f64) {
         self.sensed.update(lean.cap_magnitude(LEAN_MAX), dt);
-        self.sensed_for += dt;
     }
 
     /// Lets the planned lean follow the sensed one for `dt` (s), measured or not: the centre of mass moves with it, and
     /// must not jerk whenever a sole tips.
     pub(crate) fn advance(&mut self, dt: f64) {
-        let least = self.time_constant * TIME_CONSTANT_SHARE_AT_FIRST;
-        let time_constant = (self.sensed_for / 2.0).max(least).min(self.time_constant);
-        self.planned.advance(self.sensed.value(), time_constant, dt);
+        self.planned.advance(self.sensed.value(), self.time_constant, dt);
     }
 
     /// Lean of the vertical over the floor as sensed, in the walk frame (-).
@@ -73,8 +64,7 @@ mod tests {
     fn slope_is_sensed_at_once_and_planned_after_a_few_half_steps() {
         let step = Vector2::new(0.03, -0.02);
         let time_constant = PatternProportions::of_built_in_robot().slope_time_constant;
-        let mut slope = GroundSlopeEstimator::new(&PatternProportions::of_built_in_robot());
-        (0..1000).for_each(|_| slope.update(Vector2::zeros(), 1e-3));
+        let mut slope = PlannedSlope::new(&PatternProportions::of_built_in_robot());
         (0..1000).for_each(|_| slope.update(step, 1e-3));
         assert!((slope.sensed() - step).norm() < 1e-6);
         for tick in 1..=18_000 {
@@ -91,8 +81,7 @@ mod tests {
     #[test]
     fn planned_slope_is_smooth_when_measurements_come_now_and_then() {
         let time_constant = PatternProportions::of_built_in_robot().slope_time_constant;
-        let mut slope = GroundSlopeEstimator::new(&PatternProportions::of_built_in_robot());
-        (0..2000).for_each(|_| slope.update(Vector2::zeros(), 1e-3));
+        let mut slope = PlannedSlope::new(&PatternProportions::of_built_in_robot());
         let mut last = [0.0; 2];
         for knot in 0..300 {
             if knot / 3 % 2 == 0 {
@@ -107,7 +96,7 @@ mod tests {
 
     #[test]
     fn slope_of_a_falling_robot_is_limited() {
-        let mut slope = GroundSlopeEstimator::new(&PatternProportions::of_built_in_robot());
+        let mut slope = PlannedSlope::new(&PatternProportions::of_built_in_robot());
         for _ in 0..30_000 {
             slope.update(Vector2::new(0.6, 0.0), 1e-3);
             slope.advance(1e-3);
