@@ -47,12 +47,8 @@ const SPECIFIC_FORCE_MAX: f64 = 1000.0;
 pub(crate) struct UsableSample {
     /// The sample. Joints whose values cannot be used are where they were commanded to be.
     pub measurement: Measurement,
-    /// The vertical in trunk axes (unit vector); `None` if the orientation cannot be used.
-    pub up: Option<Vector3<f64>>,
     /// The groups whose values cannot be used, but for joints.
     pub unusable: SensorGroups,
-    /// Whether a sensor is at fault.
-    pub has_fault: bool,
 }
 
 impl ValidatorParameters {
@@ -219,7 +215,7 @@ impl MeasurementValidator {
             measurement.angles[joint] = setpoint.angles[joint];
             measurement.rates[joint] = setpoint.rates[joint];
         }
-        Some(UsableSample { measurement, up, unusable: rejected.groups(), has_fault: rejected.first().is_some() })
+        Some(UsableSample { measurement, unusable: rejected.groups() })
     }
 
     /// Notes the trunk's motion, as far as it can be used.
@@ -361,7 +357,7 @@ mod tests {
     }
 
     fn is_valid(validator: &mut MeasurementValidator, sample: &Measurement, dt: f64, faults: &mut Faults) -> bool {
-        validator.update(Some(sample), None, dt, faults).is_some_and(|usable| !usable.has_fault)
+        validator.update(Some(sample), None, dt, faults).is_some() && validator.rejection().is_none()
     }
 
     /// Each sensor alone is missing, or says nonsense: what is left can be used.
@@ -385,8 +381,11 @@ mod tests {
                 validator.update(Some(&turned(0, 0.1, 0.0)), None, 1e-3, &mut faults).expect("a good sample");
                 let usable = validator.update(Some(&sample), None, 1e-3, &mut faults).expect("the others go on");
                 assert_eq!(usable.unusable.iter().collect::<Vec<_>>(), [group]);
-                assert_eq!((usable.has_fault, faults != Faults::default()), (is_fault, is_fault), "{group}");
-                assert_eq!(usable.up.is_none(), group == SensorGroup::Orientation);
+                assert_eq!(
+                    (validator.rejection().is_some(), faults != Faults::default()),
+                    (is_fault, is_fault),
+                    "{group}"
+                );
             }
         }
     }
@@ -410,7 +409,7 @@ mod tests {
             validator.update(Some(&dead), Some(&expected), 1e-3, &mut Faults::default()).expect("a part of it");
         assert_eq!(usable.measurement.angles[Joint::LeftKnee], 0.4);
         assert_eq!(usable.measurement.angles[Joint::RightKnee], 0.01);
-        assert!(usable.has_fault);
+        assert!(validator.rejection().is_some());
     }
 
     /// At 6 rad/s the trunk is tilted beyond 40° after 0.12 s; the robot counts as fallen 50 ms later.

@@ -1,7 +1,7 @@
 //! What a measurement says about the robot: the contacts of its feet, its tilt, and its centre of mass.
 
 use interface::{Fault, Faults, Measurement, SensorGroup};
-use model::{ComState, GRAVITY, Mechanism, Mirrored, Side};
+use model::{ComState, GRAVITY, JointVector, Mechanism, Side};
 use nalgebra::{Vector2, Vector3};
 use pattern::GaitPhase;
 use stabilizer::{
@@ -31,7 +31,6 @@ impl Controller {
         // A robot that has fallen is moved by others.
         let followed = self.last_setpoint.filter(|_| self.state.plays_gait());
         let support = self.expected_support();
-        self.expect_deflection(measurement, dt);
         let expected = followed.as_ref().map(|setpoint| Expectation {
             setpoint,
             yielding: &self.yielding,
@@ -69,7 +68,7 @@ impl Controller {
     ///
     /// * `dt` – time since the sample before (s)
     fn absorb(&mut self, sample: &UsableSample, dt: f64, faults: &mut Faults) -> Option<ComState> {
-        let UsableSample { mut measurement, unusable, .. } = *sample;
+        let UsableSample { mut measurement, unusable } = *sample;
         self.measured_angles = Some(measurement.angles);
         let usable = |group| !unusable.contains(group);
         let orientation = usable(SensorGroup::Orientation).then_some(&measurement.orientation);
@@ -94,11 +93,16 @@ impl Controller {
         }
         let heading = self.attitude.attitude().filter(|_| usable(SensorGroup::Orientation));
         self.odometry.update(support, &self.kinematics, heading.as_deref(), dt);
-        self.contact = if Side::BOTH.into_iter().all(|side| usable(SensorGroup::of_foot(side))) {
-            self.zmp_estimator.update(&measured, &self.kinematics, &self.mechanism, dt)
+        // Forces that cannot be used, which may be NaN, are those of the plan.
+        let torques_beyond;
+        (self.contact, torques_beyond) = if Side::BOTH.into_iter().all(|side| usable(SensorGroup::of_foot(side))) {
+            let feet = [measured.support_foot, measured.swing_foot];
+            let contact = self.zmp_estimator.update(&measured, &self.kinematics, &self.mechanism, dt);
+            (contact, self.reference.torques_beyond(&self.tree, &self.mechanism, feet))
         } else {
-            ContactEstimate::unknown(self.tree.mass * GRAVITY)
+            (ContactEstimate::unknown(self.tree.mass * GRAVITY), JointVector::ZERO)
         };
+        self.deflection.update(&mirror.to_physical(support, &torques_beyond), dt);
         if self.contact.in_contact == [false, false] {
             faults.insert(Fault::InTheAir);
             self.feedback.release();
@@ -133,21 +137,6 @@ impl Controller {
         Some(com)
     }
 
-    /// Lets the drives yield as the measured forces of the ground tell.
-    fn expect_deflection(&mut self, measurement: Option<&Measurement>, dt: f64) {
-        let Some(measurement) = measurement else { return };
-        let gait = self.pattern.gait();
-        let (support, mirror) = (gait.half_step().support, gait.walk().mirror());
-        let [bearing, swinging] = support.support_first(measurement.feet);
-        let feet = if support == Side::Right {
-            [bearing, swinging]
-        } else {
-            [bearing, swinging].map(|foot| foot.mirrored(mirror))
-        };
-        let torques = self.reference.torques_beyond(&self.tree, &self.mechanism, feet);
-        self.deflection.update(&mirror.to_physical(support, &torques), dt);
-    }
-
     /// Latches a fault if the measured vertical is not the one by which the robot moves.
     pub(super) fn check_gravity(&mut self, com: Option<&ComState>, dt: f64, faults: &mut Faults) {
         let gait = self.pattern.gait();
@@ -172,5 +161,55 @@ impl Controller {
         } else {
             Some(ExpectedSupport::OneFoot(gait.half_step().support))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use config::Config;
+    use gait::{NominalTable, Start};
+    use interface::SensorGroups;
+    use model::Wrench;
+    use nalgebra::Quaternion;
+
+    use super::*;
+    use crate::Parameters;
+
+    /// Forces that are no numbers leave no trace: joints are then expected where the plan has them.
+    #[test]
+    fn forces_that_are_no_numbers_deflect_no_drive() {
+        let file = |name: &str| format!("{}/../../config/{name}", env!("CARGO_MANIFEST_DIR"));
+        let mechanism = Mechanism::load(file("mechanism.toml")).unwrap();
+        let table = Arc::new(NominalTable::read_csv(file("nominal_half_step.csv").as_ref()).unwrap());
+        let parameters = Parameters::load(file("controller.toml")).unwrap();
+        let mut controller = Controller::new(&mechanism, table, &parameters, Start::default()).unwrap();
+        let weight = Wrench { force: Vector3::new(0.0, 0.0, mechanism.mass() * GRAVITY), moment: Vector3::zeros() };
+        let mut deflections = Vec::new();
+        for sample in 0..30 {
+            let setpoint = controller.last_setpoint.unwrap_or_default();
+            let mut feet = [weight, Wrench::ZERO];
+            if sample == 10 {
+                feet[0].force.x = f64::NAN;
+                feet[1].moment.y = f64::INFINITY;
+            }
+            let measurement = Measurement {
+                sample,
+                angles: setpoint.angles,
+                rates: setpoint.rates,
+                feet,
+                orientation: Quaternion::identity(),
+                angular_rate: Vector3::zeros(),
+                specific_force: Vector3::z() * GRAVITY,
+                currents: JointVector::ZERO,
+                missing: SensorGroups::NONE,
+            };
+            controller.tick(1e-3, Some(&measurement));
+            deflections.push(*controller.deflection.angles());
+        }
+        let is_finite = |angles: &JointVector| angles.0.iter().all(|angle| angle.is_finite());
+        assert!(deflections.iter().all(is_finite));
+        assert!(deflections[29].0.iter().any(|angle| *angle != 0.0), "the forces before and after count");
     }
 }
