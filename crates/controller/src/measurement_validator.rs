@@ -3,44 +3,13 @@
 //! silence the others: each is judged by itself.
 
 use interface::{Fault, Faults, Measurement, Rejection, Sensor, SensorGroup, SensorGroups};
-use model::{GRAVITY, Joint, JointLimits, Mechanism, PerJoint, Side};
+use model::{GRAVITY, Joint, Mechanism};
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::plausibility::Plausibility;
 use crate::rejected_sensors::RejectedSensors;
-use crate::sensor_consistency::{ConsistencyParameters, Expectation, SensorConsistency};
-
-/// What counts as a valid measurement and as a fall.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ValidatorParameters {
-    /// Longest time without a valid measurement (s); beyond it the robot stops.
-    pub timeout: f64,
-    /// Tilt of the trunk beyond which the robot cannot recover (rad).
-    pub tilt_max: f64,
-    /// Time that the trunk must be tilted beyond recovery before the robot counts as fallen (s). No fall ends sooner.
-    pub fall_confirmation: f64,
-    /// Tolerance of the measured joint angles beyond their range (rad): stops give way, encoders are mounted by hand.
-    pub angle_tolerance: f64,
-    /// Largest measured joint rate, as a multiple of the joint's rate limit (-).
-    pub rate_factor_max: f64,
-    /// Largest measured angular rate of the trunk about an axis (rad/s).
-    pub trunk_rate_max: f64,
-    /// Largest measured force on a foot, as a multiple of the robot's weight (-); likewise for moments, at an arm of 1
-    /// m.
-    pub load_factor_max: f64,
-    /// Largest angle between the measured vertical and the one that the gyro predicts from the last sample (rad).
-    pub orientation_jump_max: f64,
-    /// Largest change of the trunk's angular rate between two samples (rad/s): no push turns a trunk more suddenly.
-    pub trunk_rate_jump_max: f64,
-    /// Longest gap between two samples that the gyro can bridge (s).
-    pub gyro_horizon: f64,
-    /// How far measurements may contradict each other and the setpoint.
-    pub consistency: ConsistencyParameters,
-}
-
-/// Deviation of a measured quaternion's norm from 1 up to which it is an orientation.
-const NORM_TOLERANCE: f64 = 0.01;
-/// Largest component of the specific force at the trunk that an accelerometer tells (m/s²): about 100 g.
-const SPECIFIC_FORCE_MAX: f64 = 1000.0;
+use crate::sensor_consistency::{Expectation, SensorConsistency};
+use crate::validator_parameters::ValidatorParameters;
 
 /// The part of a sample that can be used.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,38 +20,11 @@ pub(crate) struct UsableSample {
     pub unusable: SensorGroups,
 }
 
-impl ValidatorParameters {
-    /// Thresholds for a `timeout` (s) and a `tilt_max` (rad) where the configuration has no others.
-    pub const fn with_default_thresholds(timeout: f64, tilt_max: f64) -> Self {
-        Self {
-            timeout,
-            tilt_max,
-            fall_confirmation: 0.05,
-            angle_tolerance: 0.5,
-            rate_factor_max: 5.0,
-            trunk_rate_max: 50.0,
-            load_factor_max: 50.0,
-            orientation_jump_max: 0.175,
-            trunk_rate_jump_max: 5.0,
-            gyro_horizon: 0.25,
-            consistency: ConsistencyParameters {
-                orientation_error_max: 0.012,
-                tracking_error_max: 0.15,
-                tracking_bias_max: 0.02,
-                rate_error_max: 0.01,
-                load_share: [0.6, 1.5],
-            },
-        }
-    }
-}
-
 /// Lets valid values through, and knows how long ago the last sample without a fault arrived.
 #[derive(Clone, Debug)]
 pub struct MeasurementValidator {
     parameters: ValidatorParameters,
-    limits: PerJoint<Option<JointLimits>>,
-    /// Largest plausible force on a foot (N).
-    force_max: f64,
+    plausibility: Plausibility,
     /// Number of the newest valid sample.
     newest: Option<u64>,
     /// Time since the last sample without a fault (s).
@@ -110,8 +52,7 @@ impl MeasurementValidator {
         let weight = mechanism.mass() * GRAVITY;
         Self {
             parameters,
-            limits: PerJoint::from_fn(|joint| mechanism.links[joint].limits),
-            force_max: parameters.load_factor_max * weight,
+            plausibility: Plausibility::new(mechanism, &parameters),
             newest: None,
             age: 0.0,
             trunk: None,
@@ -189,7 +130,7 @@ impl MeasurementValidator {
         let is_new_robot = self.newest.is_none() || is_earlier;
         // It is where it is, whatever was commanded.
         let expected = expected.filter(|_| !is_new_robot);
-        self.reject_implausible(measurement, rejected);
+        self.plausibility.check(measurement, rejected);
         let is_plausible = rejected.first().is_none();
         if is_new_robot && !is_plausible {
             return None;
@@ -244,58 +185,6 @@ impl MeasurementValidator {
         }
         if let Some(expected) = expected {
             self.consistency.update(measurement, up, expected, dt, rejected);
-        }
-    }
-
-    /// Rejects values that are missing, are not finite, or that no working sensor of this robot produces.
-    fn reject_implausible(&self, measurement: &Measurement, rejected: &mut RejectedSensors) {
-        let ValidatorParameters { angle_tolerance, rate_factor_max, trunk_rate_max, .. } = self.parameters;
-        let is_there = |group| !measurement.missing.contains(group);
-        let judge = |is_finite: bool, is_plausible: bool| match (is_finite, is_plausible) {
-            (false, _) => Some(Fault::MeasurementNotFinite),
-            (_, false) => Some(Fault::MeasurementImplausible),
-            _ => None,
-        };
-        for joint in Joint::ALL {
-            let (angle, rate) = (measurement.angles[joint], measurement.rates[joint]);
-            if !is_there(SensorGroup::Joints) {
-                rejected.insert(Fault::MeasurementMissing, Sensor::JointAngle(joint));
-                continue;
-            }
-            let is_in_range = |limits: &JointLimits| {
-                (limits.angle_min - angle_tolerance..=limits.angle_max + angle_tolerance).contains(&angle)
-            };
-            let is_slow = |limits: &JointLimits| rate.abs() <= rate_factor_max * limits.rate_max;
-            let limits = self.limits[joint].as_ref();
-            if let Some(fault) = judge(angle.is_finite(), limits.is_none_or(is_in_range)) {
-                rejected.insert(fault, Sensor::JointAngle(joint));
-            } else if let Some(fault) = judge(rate.is_finite(), limits.is_none_or(is_slow)) {
-                rejected.insert(fault, Sensor::JointRate(joint));
-            }
-        }
-        let mut reject = |group, sensor, is_finite, is_plausible| {
-            let missing = (!is_there(group)).then_some(Fault::MeasurementMissing);
-            if let Some(fault) = missing.or(judge(is_finite, is_plausible)) {
-                rejected.insert(fault, sensor);
-            }
-        };
-        for side in Side::BOTH {
-            let foot = &measurement.feet[side.index()];
-            let is_plausible = foot.force.amax().max(foot.moment.amax()) <= self.force_max;
-            reject(SensorGroup::of_foot(side), Sensor::Foot(side), foot.is_finite(), is_plausible);
-        }
-        let is_unit = (measurement.orientation.norm() - 1.0).abs() < NORM_TOLERANCE;
-        reject(SensorGroup::Orientation, Sensor::Orientation, is_unit, true);
-        let rate = &measurement.angular_rate;
-        let is_finite = rate.iter().all(|rate| rate.is_finite());
-        reject(SensorGroup::AngularRate, Sensor::AngularRate, is_finite, rate.amax() <= trunk_rate_max);
-        let force = &measurement.specific_force;
-        if is_there(SensorGroup::SpecificForce) {
-            let is_finite = force.iter().all(|force| force.is_finite());
-            reject(SensorGroup::SpecificForce, Sensor::Accelerometer, is_finite, force.amax() <= SPECIFIC_FORCE_MAX);
-        } else {
-            // A robot need not have one.
-            rejected.do_without(SensorGroup::SpecificForce);
         }
     }
 

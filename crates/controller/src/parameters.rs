@@ -7,9 +7,9 @@ use interface::{COMMAND_TIMEOUT_MAX as TIMEOUT_MAX, COMMAND_TIMEOUT_MIN as TIMEO
 use stabilizer::{FeedbackParameters, LandingParameters, ZmpParameters};
 
 use crate::command_arbiter::ArbiterParameters;
-use crate::measurement_validator::ValidatorParameters;
 use crate::pattern::Compensation;
 use crate::sensor_consistency::ConsistencyParameters;
+use crate::validator_parameters::ValidatorParameters;
 
 /// Coefficient of friction that is relied on unless the file says otherwise: rubber on a dry floor has 0.7 and more.
 const FRICTION: f64 = 0.7;

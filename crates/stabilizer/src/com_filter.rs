@@ -15,6 +15,7 @@
 use model::{ComState, Mechanism};
 use nalgebra::{Matrix3, Matrix3x2, Vector2, Vector3};
 
+use crate::acceleration_evidence::AccelerationEvidence;
 use crate::proportions::StabilizerProportions;
 
 /// Standard deviation of the measured velocity of the centre of mass (m/s): of a gyro with noise of 0.3°/s.
@@ -46,17 +47,6 @@ const SETTLED: f64 = 0.12;
 const VELOCITY: usize = 0;
 const OFFSET: usize = 1;
 const EXTERNAL: usize = 2;
-
-/// What a sample says about the acceleration of the centre of mass, against the plan.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct AccelerationEvidence {
-    /// The zero-moment point beyond the planned one, if it is known (m).
-    pub zmp: Option<Vector2<f64>>,
-    /// Acceleration of the trunk beyond the planned one, if it is measured (m/s²).
-    pub acceleration: Option<Vector2<f64>>,
-    /// Whether the sole lies flat, so that an offset shows.
-    pub is_flat: bool,
-}
 
 /// The filter. Everything is in support coordinates.
 #[derive(Clone, Debug)]

@@ -14,6 +14,7 @@
 //! Everything is expressed in support coordinates: as if the robot stood on its right foot, O under the ankle, x along
 //! the foot.
 
+mod acceleration_evidence;
 mod attitude_estimator;
 mod balance_state;
 mod com_estimator;
@@ -27,10 +28,11 @@ mod proportions;
 mod support_frame_measurement;
 mod zmp_estimator;
 
+pub use acceleration_evidence::AccelerationEvidence;
 pub use attitude_estimator::AttitudeEstimator;
 pub use balance_state::{BalanceState, SupportFoot};
 pub use com_estimator::{estimate_com, level_specific_force};
-pub use com_filter::{AccelerationEvidence, ComFilter};
+pub use com_filter::ComFilter;
 pub use dcm_feedback::{AnkleLean, DcmFeedback, FeedbackParameters};
 pub use ground_slope_filter::GroundSlopeFilter;
 pub use landing_compliance::{LandingCompliance, LandingParameters};
