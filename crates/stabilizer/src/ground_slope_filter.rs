@@ -14,7 +14,7 @@ use crate::support_frame_measurement::SupportFrameMeasurement;
 
 /// Standard deviation of the slope before anything is known (-).
 const UNKNOWN: f64 = 0.1;
-/// Standard deviation of the change of the slope from footprint to footprint (-): a ramp begins within two steps.
+/// Standard deviation of the change of the slope from footprint to footprint (-): a ramp is believed after two steps.
 const CHANGE_PER_FOOTPRINT: f64 = 0.035;
 
 /// Lean of the vertical over a sole by the yielding of soles and drives (-).
