@@ -119,6 +119,8 @@ class PushOutcome(IntEnum):
     OUT_OF_RANGE = 2  # a push must last 1 ms to 10 s and have at most 10000 N·s
     TOO_MANY = 3  # too many pushes act at the same time
     EXTERNAL_ENGINE = 4  # another program computes the physics: it takes pushes from --disturbances only
+
+
 class SensorGroup(IntFlag):
     JOINTS = 1  # angles and rates of the joints
     ORIENTATION = 2  # orientation of the trunk
