@@ -68,6 +68,8 @@ impl Teller {
             com_measured: None,
             odometry: Odometry::default(),
             destination: left.map(|(places_left, distance)| DestinationProgress { places_left, distance, turn: 0.0 }),
+            capturability: None,
+            estimate: interface::StateEstimate::default(),
             faults: Faults::default(),
         };
         let timing = PeriodTiming { tick: self.tick, time_ns, missed: 0, compute_ns: 0 };

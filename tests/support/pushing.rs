@@ -77,13 +77,24 @@ impl Direction {
 
     /// In world axes, for a robot that bears on `support`.
     pub fn in_world(self, walking: &Walking, support: Side) -> Vector3<f64> {
-        let ahead = walking.plant.truth().soles[support.index()].rotation * Vector3::x();
-        let ahead = Vector3::new(ahead.x, ahead.y, 0.0).normalize();
-        let left = Vector3::z().cross(&ahead);
-        let to_swing = if support == Side::Right { left } else { -left };
-        let along = self.ahead_and_to_swing();
-        ahead * along.x + to_swing * along.y
+        in_world(walking, support, self.ahead_and_to_swing())
     }
+}
+
+/// A unit vector in world axes, for a robot that bears on `support`.
+///
+/// * `angle` – from ahead towards the swinging foot (rad)
+pub fn at_angle(walking: &Walking, support: Side, angle: f64) -> Vector3<f64> {
+    in_world(walking, support, Vector2::new(angle.cos(), angle.sin()))
+}
+
+/// A vector ahead and towards the swinging foot in world axes.
+fn in_world(walking: &Walking, support: Side, along: Vector2<f64>) -> Vector3<f64> {
+    let ahead = walking.plant.truth().soles[support.index()].rotation * Vector3::x();
+    let ahead = Vector3::new(ahead.x, ahead.y, 0.0).normalize();
+    let left = Vector3::z().cross(&ahead);
+    let to_swing = if support == Side::Right { left } else { -left };
+    ahead * along.x + to_swing * along.y
 }
 
 /// Steps in place at a progress of a half-step, long after their beginning; `None` if the robot falls before.
@@ -123,10 +134,16 @@ fn walk_on_to(mut walking: Walking, half_step: u64, progress: f64) -> Option<Wal
 /// Whether a copy of `walking`, pushed now by an impulse of so many N·s, still does what it did [`WALKS_ON`] seconds
 /// later.
 pub fn survives(walking: &Walking, direction: Direction, impulse: f64) -> bool {
+    let along = direction.ahead_and_to_swing();
+    survives_at(walking, along.y.atan2(along.x), impulse)
+}
+
+/// The same of a push at an angle from ahead towards the swinging foot (rad).
+pub fn survives_at(walking: &Walking, angle: f64, impulse: f64) -> bool {
     let mut pushed = walking.clone();
     let report = pushed.tick(None).report;
     let (mode, support) = (report.mode, report.half_step.support);
-    let push = direction.in_world(&pushed, support) * impulse;
+    let push = at_angle(&pushed, support, angle) * impulse;
     pushed.plant.push(push, PUSH_DURATION);
     let fallen = pushed.walk(WALKS_ON).has_fallen();
     !fallen && pushed.tick(None).report.mode == mode

@@ -9,6 +9,7 @@ mod accuracy;
 #[cfg(feature = "mujoco")]
 mod agreement;
 mod asked;
+mod capturability;
 mod cores;
 #[cfg(all(feature = "mujoco", feature = "processes"))]
 mod directions;
@@ -68,6 +69,8 @@ enum Survey {
     StartStop(start_stop::Options),
     /// The largest push survived, by phase of the half-step and direction
     Pushes(pushes::Options),
+    /// Whether the report is right about who can still be kept from falling
+    Capturability(capturability::Options),
     /// Other floors, masses, loads, slopes and delays than the controller believes
     Variations(variations::Options),
     /// Wrong sensors: every kind, group and duration, walking and standing; and false alarms of clean walks
@@ -116,6 +119,7 @@ fn main() -> ExitCode {
         Survey::Streams(options) => streams::survey(options),
         Survey::StartStop(options) => start_stop::survey(options),
         Survey::Pushes(options) => pushes::survey(options),
+        Survey::Capturability(options) => capturability::survey(options),
         Survey::Variations(options) => variations::survey(options),
         Survey::Faults(options) => faults::survey(options),
         Survey::Needs(options) => needs::survey(options),

@@ -19,6 +19,7 @@ mod starts_and_stops_in_any_order;
 mod steps_in_place;
 mod the_controller_begins_where_the_robot_is;
 mod the_preview_keeps_the_zmp_in_the_sole;
+mod the_report_says_who_can_be_caught;
 mod walks_by_every_extreme_of_what_is_granted;
 mod walks_in_every_direction;
 mod walks_on_after_pushes;

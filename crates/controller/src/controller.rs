@@ -12,14 +12,14 @@ use dynamics::{Kinematics, PlannedContact, ReferenceDynamics, Tree};
 use gait::{NominalTable, Start, Walk, WalkError};
 use interface::{
     AddedAngles, Fault, Faults, Intent, LatchedFault, Measurement, Mode, Reason, Rejection, Reply, Report, Setpoint,
-    SteadyWalk,
+    StateEstimate, SteadyWalk,
 };
 use model::{ComState, JointVector, Mechanism, Motion, Side};
 use nalgebra::Vector2;
 use pattern::{FeasibilityCheck, PatternGenerator, Stance, VelocityMap};
 use stabilizer::{
-    AttitudeEstimator, ComFilter, ContactEstimate, DcmFeedback, GroundSlopeFilter, LandingCompliance, SupportFoot,
-    WalkOdometry, ZmpEstimator,
+    AttitudeEstimator, CapturabilityEstimator, ComFilter, ContactEstimate, DcmFeedback, GroundSlopeFilter,
+    LandingCompliance, SupportFoot, WalkOdometry, ZmpEstimator,
 };
 
 use crate::admission_control::AdmissionControl;
@@ -79,6 +79,7 @@ pub struct Controller {
     since_sample: f64,
     /// Whether a sensor was at fault in the last sample.
     has_sensor_fault: bool,
+    capturability: CapturabilityEstimator,
     odometry: WalkOdometry,
     velocity_map: VelocityMap,
     /// For how long measurements have called for another step (s).
@@ -165,6 +166,7 @@ impl Controller {
             gravity: GravityConsistency::default(),
             attitude: AttitudeEstimator::default(),
             com_filter: ComFilter::new(mechanism),
+            capturability: CapturabilityEstimator::new(mechanism),
             since_sample: 0.0,
             has_sensor_fault: false,
             odometry,
@@ -345,6 +347,13 @@ impl Controller {
             margin: Some(self.contact.margin).filter(|margin| margin.is_finite()),
             lean: self.feedback.lean(),
             added: self.added(commanded),
+            capturability: self.capturability(),
+            estimate: StateEstimate {
+                contact: self.contact.in_contact,
+                external_force: self.com_filter.external_acceleration() * self.tree.mass,
+                com_offset: self.com_filter.com_offset(),
+                gyro_bias: self.attitude.gyro_bias(),
+            },
             com_planned: has_plan.then_some(self.reference.com),
             com_measured: com_measured.filter(|_| is_same_foot),
             faults,

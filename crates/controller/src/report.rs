@@ -1,6 +1,6 @@
 //! What a tick returns, and how a report leaves the support coordinates of the controller.
 
-use interface::{AddedAngles, Command, LatchedFault, Rejection, Reply, Report, Setpoint};
+use interface::{AddedAngles, Command, LatchedFault, Rejection, Reply, Report, Setpoint, StateEstimate};
 use model::{ComState, Joint, JointVector, Mechanism, Side};
 use nalgebra::{Vector2, Vector3};
 
@@ -41,6 +41,12 @@ pub(crate) fn to_physical(report: Report) -> Report {
         added: report.added.map(added),
         com_planned: report.com_planned.map(com),
         com_measured: report.com_measured.map(com),
+        estimate: StateEstimate {
+            contact: [report.estimate.contact[1], report.estimate.contact[0]],
+            external_force: point(report.estimate.external_force),
+            com_offset: point(report.estimate.com_offset),
+            ..report.estimate
+        },
         ..report
     }
 }
@@ -102,6 +108,13 @@ mod tests {
                 com_planned: Some(com),
                 com_measured: None,
                 odometry: Odometry::default(),
+                capturability: None,
+                estimate: StateEstimate {
+                    contact: [true, false],
+                    external_force: Vector2::new(10.0, 20.0),
+                    com_offset: Vector2::new(0.01, 0.02),
+                    gyro_bias: Vector3::zeros(),
+                },
                 destination: None,
                 faults: Faults::default(),
             })
@@ -115,6 +128,13 @@ mod tests {
         assert_eq!(left.zmp_planned, Some(Vector2::new(0.03, -0.04)));
         let com = ComState { position: Vector3::new(0.1, -0.08, 0.9), velocity: Vector3::new(0.4, 0.2, 0.01) };
         assert_eq!((left.com_planned, left.com_measured), (Some(com), None));
+        assert_eq!(
+            (left.estimate.contact, right.estimate.contact),
+            ([false, true], [true, false]),
+            "the right foot is the first"
+        );
+        assert_eq!(left.estimate.external_force, Vector2::new(10.0, -20.0));
+        assert_eq!(left.estimate.com_offset, Vector2::new(0.01, -0.02));
         assert_eq!(left.turn, right.turn, "a command is not mirrored");
     }
 }

@@ -14,6 +14,7 @@
 //! expressed in the support foot's sole frame: origin under the ankle, x forward along the foot, y to the left, z up.
 //! Nothing that leaves the controller is mirrored.
 
+mod capturability;
 pub mod code;
 mod command;
 mod destination;
@@ -36,6 +37,7 @@ mod source;
 mod verdict;
 mod walk_pose;
 
+pub use capturability::Capturability;
 pub use command::{Command, GaitChange};
 pub use destination::{
     Destination, DestinationProgress, Footstep, PLACES_MAX, PlaceFrame, PlaceList, Places, Waypoint,
@@ -50,7 +52,7 @@ pub use period_timing::PeriodTiming;
 pub use push_request::{PushOutcome, PushReply, PushRequest};
 pub use reason::Reason;
 pub use reply::{ActiveLimit, ControlAuthority, Objection, Reply};
-pub use report::{AddedAngles, Report};
+pub use report::{AddedAngles, Report, StateEstimate};
 pub use request::Request;
 pub use sensor::{Rejection, Sensor};
 pub use sensor_group::{SensorGroup, SensorGroups};

@@ -1,9 +1,9 @@
 //! The state of the controller after a control period.
 
 use model::ComState;
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 
-use crate::{DestinationProgress, Faults, HalfStep, Mode, Odometry};
+use crate::{Capturability, DestinationProgress, Faults, HalfStep, Mode, Odometry};
 
 /// The state of the controller after a control period. Points, vectors and rotations are expressed in the support
 /// foot's sole frame, but for the odometry.
@@ -37,12 +37,30 @@ pub struct Report {
     pub com_planned: Option<ComState>,
     /// Measured centre of mass, levelled; `None` as for the ZMP.
     pub com_measured: Option<ComState>,
+    /// What it takes to keep the robot from falling; `None` while no plan is followed.
+    pub capturability: Option<Capturability>,
+    /// What is estimated beside ZMP, centre of mass and place.
+    pub estimate: StateEstimate,
     /// Where the robot is, as estimated.
     pub odometry: Odometry,
     /// How far the walk to a destination has come; `None` if there is none, or another request took its place.
     pub destination: Option<DestinationProgress>,
     /// What is wrong.
     pub faults: Faults,
+}
+
+/// What is estimated of the robot and its surroundings beside ZMP, centre of mass and place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StateEstimate {
+    /// Whether the right and the left foot touch the ground.
+    pub contact: [bool; 2],
+    /// Horizontal force by which something pushes or pulls the robot (N).
+    pub external_force: Vector2<f64>,
+    /// By how much the centre of mass seems to be farther ahead and to the left than it is (m): by a payload, wrong
+    /// masses, or an inertial measurement unit that is askew.
+    pub com_offset: Vector2<f64>,
+    /// Bias of the gyro about the axes of the trunk (rad/s).
+    pub gyro_bias: Vector3<f64>,
 }
 
 /// Rotations that the plan adds to the plain sum of the modifications, about x (roll) and y (pitch) (rad).

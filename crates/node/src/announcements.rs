@@ -71,6 +71,8 @@ mod tests {
             added: None,
             com_planned: None,
             com_measured: None,
+            capturability: None,
+            estimate: interface::StateEstimate::default(),
             faults: Faults::default(),
         };
         let (setpoint, command) = (Setpoint::default(), Command::NOMINAL);

@@ -100,6 +100,10 @@ pub trait Gait {
     /// adjusted: soon after the last adjustment, late in a half-step, and in a stand.
     fn choose_step(&self, measured: &MeasuredBalance) -> Option<StepChoice>;
 
+    /// The error of the divergent component that the best step leaves at touchdown, beyond what the next ankle
+    /// corrects, in support coordinates (m). `None` late in a half-step, and in a stand.
+    fn shortfall(&self, measured: &MeasuredBalance) -> Option<Vector2<f64>>;
+
     /// Adjusts place and time of the landing of the swing foot.
     fn adjust_step(&mut self, choice: StepChoice);
 }

@@ -327,6 +327,12 @@ impl Gait for PatternGenerator {
         self.plan.choose_step(&self.model, measured, self.execution.playback.elapsed())
     }
 
+    fn shortfall(&self, measured: &MeasuredBalance) -> Option<Vector2<f64>> {
+        let is_same_half_step = self.walk().half_step().index == self.half_step().index;
+        let elapsed = self.execution.playback.elapsed();
+        is_same_half_step.then(|| self.plan.shortfall(&self.model, measured, elapsed)).flatten()
+    }
+
     fn adjust_step(&mut self, choice: StepChoice) {
         let change = PlanChange { step: Some(choice), ..PlanChange::default() };
         if self.replan_soon(change) {

@@ -157,6 +157,21 @@ impl Plan {
         self.foot_trajectory.choose_step(model, &self.landings, measured, [knots, lead])
     }
 
+    /// The error of the divergent component that the best step leaves (m); `None` late in a half-step, and in a stand.
+    ///
+    /// * `elapsed` – time since the present knot (s)
+    pub(crate) fn shortfall(
+        &self,
+        model: &PatternModel,
+        measured: &MeasuredBalance,
+        elapsed: f64,
+    ) -> Option<Vector2<f64>> {
+        let knots = IncrementalReplan::knots_until_takeover(elapsed);
+        let lead = (2.0 + f64::from(knots) - elapsed / KNOT).round() as u32;
+        let problem = self.foot_trajectory.step_problem(model, &self.landings, measured, [knots, lead])?;
+        Some(problem.shortfall())
+    }
+
     /// Plans a change over the coming ticks. Returns whether there is anything to change.
     ///
     /// * `elapsed` – time since the present knot (s)

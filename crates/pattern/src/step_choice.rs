@@ -90,6 +90,30 @@ impl StepProblem {
         (cost, offset)
     }
 
+    /// The error of the divergent component at touchdown that the best step leaves, beyond what the next ankle corrects
+    /// (m).
+    pub(crate) fn shortfall(&self) -> Vector2<f64> {
+        let mut least = self.rest_at(self.planned);
+        for knots in self.knots[0]..=self.knots[1] {
+            let rest = self.rest_at(knots);
+            if rest.norm_squared() < least.norm_squared() {
+                least = rest;
+            }
+        }
+        least
+    }
+
+    /// What is left of the error after so many knots, however far the landing may go (m).
+    fn rest_at(&self, knots: u32) -> Vector2<f64> {
+        let reachable = self.offset_change_max * f64::from(knots.saturating_sub(COMING_DOWN));
+        let wanted = self.uncorrected_error(knots);
+        Vector2::from_fn(|axis, _| {
+            let [least, most] = self.offset_bounds.map(|bound| bound[axis]);
+            let now = self.offset[axis];
+            wanted[axis] - wanted[axis].max(least).min(most).max(now - reachable).min(now + reachable)
+        })
+    }
+
     /// The error of the divergent component at a touchdown at the planned place that neither this ankle nor the next
     /// one can correct (m).
     fn uncorrected_error(&self, knots: u32) -> Vector2<f64> {

@@ -135,5 +135,9 @@ impl Gait for UncompensatedGait {
         None
     }
 
+    fn shortfall(&self, _: &MeasuredBalance) -> Option<Vector2<f64>> {
+        None
+    }
+
     fn adjust_step(&mut self, _: StepChoice) {}
 }

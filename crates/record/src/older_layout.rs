@@ -11,7 +11,7 @@ use wire::{Layout, NumberType};
 use crate::schema;
 
 /// Layouts of earlier versions that can be read.
-const OLDER: [&str; 9] = [
+const OLDER: [&str; 10] = [
     "halfstep.Measurement.v2",
     "halfstep.Request.v2",
     "halfstep.Request.v3",
@@ -21,6 +21,7 @@ const OLDER: [&str; 9] = [
     "halfstep.Reply.v4",
     "halfstep.Report.v2",
     "halfstep.Report.v3",
+    "halfstep.Report.v4",
 ];
 
 /// What an integer that was added later is in messages of an earlier layout: layout, field, value.
@@ -162,9 +163,27 @@ mod tests {
         assert_eq!(older.text(), "`halfstep.Measurement.v2` has no imu_specific_force, missing");
     }
 
+    /// What reports did not have before the fifth version.
+    const ESTIMATES: [&str; 5] = ["capturability", "contact", "external_force", "com_offset", "gyro_bias"];
+
+    #[test]
+    fn a_report_of_an_earlier_version_judges_nothing() {
+        let layout = ReportMessage::layout();
+        let mut before = Layout { type_name: "halfstep.Report.v4", ..layout.clone() };
+        before.fields.retain(|field| !ESTIMATES.contains(&field.name));
+        let older = OlderLayout::of(&schema::text(&before), &layout).unwrap();
+        let report = ReportMessage::decode(&older.convert(&[0; 416]).unwrap()).unwrap().checked().unwrap();
+        assert_eq!((report.capturability, report.estimate), (None, interface::StateEstimate::default()));
+    }
+
     /// This version's layout without the fields of destinations, under an earlier name.
     fn before_destinations(layout: &Layout, earlier: &str) -> Layout {
-        let is_new = |name: &str| name.starts_with("place") || name.starts_with("destination") || name == "arrival";
+        let is_new = |name: &str| {
+            name.starts_with("place")
+                || name.starts_with("destination")
+                || name == "arrival"
+                || ESTIMATES.contains(&name)
+        };
         let mut before =
             Layout { type_name: OLDER.into_iter().find(|name| *name == earlier).unwrap(), ..layout.clone() };
         before.fields.retain(|field| !is_new(field.name));

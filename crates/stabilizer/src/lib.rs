@@ -9,7 +9,8 @@
 //! 5. [`BalanceState`]: how the robot balances, as planned and as estimated.
 //! 6. [`DcmFeedback`]: their difference moves the ZMP by small angles of the ankles.
 //! 7. [`LandingCompliance`]: the legs yield to unexpected forces at touchdown.
-//! 8. [`WalkOdometry`]: where the walk has come to.
+//! 8. [`CapturabilityEstimator`]: whether the robot can still be kept from falling.
+//! 9. [`WalkOdometry`]: where the walk has come to.
 //!
 //! Everything is expressed in support coordinates: as if the robot stood on its right foot, O under the ankle, x along
 //! the foot.
@@ -17,6 +18,7 @@
 mod acceleration_evidence;
 mod attitude_estimator;
 mod balance_state;
+mod capturability_estimator;
 mod com_estimator;
 mod com_filter;
 mod dcm_feedback;
@@ -31,6 +33,7 @@ mod zmp_estimator;
 pub use acceleration_evidence::AccelerationEvidence;
 pub use attitude_estimator::AttitudeEstimator;
 pub use balance_state::{BalanceState, SupportFoot};
+pub use capturability_estimator::{CapturabilityEstimator, CaptureEvidence};
 pub use com_estimator::{estimate_com, level_specific_force};
 pub use com_filter::ComFilter;
 pub use dcm_feedback::{AnkleLean, DcmFeedback, FeedbackParameters};

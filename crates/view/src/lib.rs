@@ -11,6 +11,7 @@
 
 mod access;
 mod error;
+mod fall_watch;
 mod frame_assembler;
 mod live_feed;
 mod live_pages;
@@ -79,6 +80,8 @@ mod tests {
             com_measured: None,
             odometry: Odometry::default(),
             destination: None,
+            capturability: None,
+            estimate: interface::StateEstimate::default(),
             faults: Faults::default(),
         }
     }
@@ -107,6 +110,7 @@ mod tests {
             landings: [[0.0; 3]; 2],
             destination: None,
             loads: [0.0; 2],
+            capturability: "",
             faults: Vec::new(),
             missed: 0,
             compute_us: 0.0,

@@ -35,7 +35,7 @@ pub(crate) enum ToPage<'a> {
 pub(crate) struct RunNote {
     /// When (s).
     pub(crate) t: f64,
-    /// `accepted`, `limited`, `refused` or `push`.
+    /// `accepted`, `limited`, `refused`, `push` or `fall`.
     pub(crate) kind: &'static str,
     /// What, in words.
     pub(crate) text: String,

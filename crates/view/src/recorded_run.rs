@@ -8,6 +8,7 @@ use record::{PushMessage, Recording, RunEvent, files_of, provenance_of};
 use runtime::Rate;
 
 use crate::ViewError;
+use crate::fall_watch::FallWatch;
 use crate::frame_assembler::FrameAssembler;
 use crate::message::RunNote;
 use crate::recorded_requests::RecordedRequests;
@@ -51,6 +52,7 @@ impl RecordedRun {
         let mut assembler =
             FrameAssembler::new(&mechanism, rate, origin.entry("controller", "clock") == Some("lockstep"));
         let (mut frames, mut requests) = (Frames::default(), RecordedRequests::default());
+        let mut fall = FallWatch::default();
         let (mut notes, mut cuts) = (Vec::new(), Vec::new());
         for file in files_of(run)? {
             let mut recording = Recording::open(&file)?;
@@ -59,6 +61,7 @@ impl RecordedRun {
                 match event.event {
                     RunEvent::Measurement(message) => measurement = Some(message.measurement()),
                     RunEvent::Report(report) => {
+                        fall.take(event.time(), &report);
                         assembler.take(&report);
                         if let Some(measurement) = &measurement
                             && frames.is_due(event.time())
@@ -79,6 +82,7 @@ impl RecordedRun {
         }
         let cut = (!cuts.is_empty()).then(|| cuts.join("; "));
         notes.extend(requests.notes);
+        notes.extend(fall.notes);
         notes.sort_by(|one, other| one.t.total_cmp(&other.t));
         Ok(Self { name, robot, frames: frames.kept, notes, cut })
     }

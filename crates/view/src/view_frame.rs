@@ -1,6 +1,6 @@
 //! A frame of the page: one instant of a walk, the same of a robot that walks now and of a recording.
 
-use interface::{AddedAngles, DestinationProgress, Fault, Measurement, Report, WalkPose};
+use interface::{AddedAngles, Capturability, DestinationProgress, Fault, Measurement, Report, WalkPose};
 use model::ComState;
 use nalgebra::{Isometry3, Vector2};
 use serde::Serialize;
@@ -54,6 +54,8 @@ pub struct ViewFrame {
     pub destination: Option<(u32, f64, f64)>,
     /// Measured vertical force on the right and on the left foot (N).
     pub loads: [f64; 2],
+    /// What it takes to keep the robot from falling, in words; empty while no plan is followed.
+    pub capturability: &'static str,
     /// Faults since the last frame, in words.
     pub faults: Vec<&'static str>,
     /// Deadlines missed since the start.
@@ -117,6 +119,7 @@ impl ViewFrame {
             landings: [0, 1].map(|which| pose(&odometry.landings[which])),
             destination,
             loads: rounded(measurement.feet.map(|foot| foot.force.z)),
+            capturability: report.capturability.map_or("", Capturability::text),
             faults: since.faults.iter().map(Fault::text).collect(),
             missed,
             compute_us: since.compute_ns as f64 / 1e3,

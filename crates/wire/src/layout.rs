@@ -115,7 +115,7 @@ wire_layout!(ReportMessage as type_name::<ReportMessage>(), {
     tick, time_ns, mode, support, half_step, progress, speed, turn, extension, sidestep, zmp_in_support, zmp_planned,
     margin, lean, added, com_in_support, com_velocity_in_support, com_planned, com_velocity_planned, pose,
     walk_velocity, support_sole, landing, landing_after, destination, destination_places_left, destination_distance,
-    destination_turn, faults, missed, compute_ns,
+    destination_turn, capturability, contact, external_force, com_offset, gyro_bias, faults, missed, compute_ns,
 });
 
 wire_layout!(PushRequestMessage as type_name::<PushRequestMessage>(), { link, impulse, duration });

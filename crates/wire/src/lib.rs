@@ -99,7 +99,7 @@ pub use running::running_instances;
 pub use urgent_socket::UrgentClient;
 
 /// Version of all layouts and meanings. Processes of different versions refuse to connect.
-pub const PROTOCOL: u32 = 7;
+pub const PROTOCOL: u32 = 8;
 
 /// Control rate of an instance unless [`Instance::with_rate_hz`] sets another one (Hz).
 pub const DEFAULT_RATE_HZ: u32 = 1000;

@@ -2,7 +2,7 @@
 
 use std::fmt::{Debug, Display, Write};
 
-use interface::{Fault, Intent, Lifetime, Mode, PushOutcome, Reason, SensorGroup, Source, Verdict};
+use interface::{Capturability, Fault, Intent, Lifetime, Mode, PushOutcome, Reason, SensorGroup, Source, Verdict};
 
 use crate::{Layout, NumberType, PROTOCOL, layouts};
 
@@ -29,6 +29,7 @@ pub fn python_messages() -> String {
     text.push_str(&codes("Verdict", "IntEnum", Verdict::ALL, Verdict::code));
     text.push_str(&codes("Reason", "IntEnum", Reason::ALL, Reason::code));
     text.push_str(&codes("Mode", "IntEnum", Mode::ALL, Mode::code));
+    text.push_str(&codes("Capturability", "IntEnum", Capturability::ALL, Capturability::code));
     text.push_str(&codes("Fault", "IntFlag", Fault::ALL, Fault::code));
     text.push_str(&codes("PushOutcome", "IntEnum", PushOutcome::ALL, PushOutcome::code));
     text.push_str(&codes("SensorGroup", "IntFlag", SensorGroup::ALL, SensorGroup::code));

@@ -72,13 +72,14 @@ fn reply_message_has_a_fixed_layout() {
 
 #[test]
 fn report_message_has_a_fixed_layout() {
-    assert_layout!(ReportMessage, 416, {
+    assert_layout!(ReportMessage, 480, {
         tick @ 0 + 8, time_ns @ 8 + 8, mode @ 16 + 4, support @ 20 + 4, half_step @ 24 + 8, progress @ 32 + 8,
         speed @ 40 + 8, turn @ 48 + 8, extension @ 56 + 8, sidestep @ 64 + 8, zmp_in_support @ 72 + 16,
         zmp_planned @ 88 + 16, margin @ 104 + 8, lean @ 112 + 16, added @ 128 + 32, com_in_support @ 160 + 24,
         com_velocity_in_support @ 184 + 24, com_planned @ 208 + 24, com_velocity_planned @ 232 + 24, pose @ 256 + 24,
         walk_velocity @ 280 + 24, support_sole @ 304 + 24, landing @ 328 + 24, landing_after @ 352 + 24,
         destination @ 376 + 4, destination_places_left @ 380 + 4, destination_distance @ 384 + 8,
-        destination_turn @ 392 + 8, faults @ 400 + 4, missed @ 404 + 4, compute_ns @ 408 + 8,
+        destination_turn @ 392 + 8, capturability @ 400 + 4, contact @ 404 + 4, external_force @ 408 + 16,
+        com_offset @ 424 + 16, gyro_bias @ 440 + 24, faults @ 464 + 4, missed @ 468 + 4, compute_ns @ 472 + 8,
     });
 }

@@ -9,6 +9,7 @@ from .errors import AlreadyRunning, BadName, HalfstepError, Mismatch, NoControll
 from .instance import Instance
 from .messages import (
     PROTOCOL,
+    Capturability,
     Fault,
     Intent,
     Measurement,
@@ -31,6 +32,7 @@ __all__ = [
     "AlreadyRunning",
     "Answer",
     "BadName",
+    "Capturability",
     "Fault",
     "Footstep",
     "HalfstepError",

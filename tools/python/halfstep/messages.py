@@ -9,7 +9,7 @@ from enum import IntEnum, IntFlag
 
 from .message import Message
 
-PROTOCOL = 7
+PROTOCOL = 8
 """The version of all layouts and meanings."""
 
 
@@ -90,6 +90,12 @@ class Mode(IntEnum):
     STOPPING = 5  # stopping
     FAULTED = 6  # faulted
     IN_PLACE = 7  # in place
+
+
+class Capturability(IntEnum):
+    BY_ANKLES = 1  # balanced
+    BY_STEPS = 2  # catching itself
+    LOST = 3  # falling
 
 
 class Fault(IntFlag):
@@ -305,7 +311,7 @@ class Reply(Message):
 
 
 class Report(Message):
-    """`halfstep.Report.v4`, 416 bytes."""
+    """`halfstep.Report.v5`, 480 bytes."""
 
     tick: int
     time_ns: int
@@ -335,6 +341,11 @@ class Report(Message):
     destination_places_left: int
     destination_distance: float
     destination_turn: float
+    capturability: int
+    contact: int
+    external_force: Array[c_double]
+    com_offset: Array[c_double]
+    gyro_bias: Array[c_double]
     faults: int
     missed: int
     compute_ns: int
@@ -368,6 +379,11 @@ class Report(Message):
         ("destination_places_left", c_uint32),
         ("destination_distance", c_double),
         ("destination_turn", c_double),
+        ("capturability", c_uint32),
+        ("contact", c_uint32),
+        ("external_force", c_double * 2),
+        ("com_offset", c_double * 2),
+        ("gyro_bias", c_double * 3),
         ("faults", c_uint32),
         ("missed", c_uint32),
         ("compute_ns", c_uint64),
@@ -376,7 +392,7 @@ class Report(Message):
     @staticmethod
     def type_name() -> str:
         """What shared memory calls it."""
-        return "halfstep.Report.v4"
+        return "halfstep.Report.v5"
 
 
 class PushRequest(Message):

@@ -22,6 +22,9 @@ const MODE_BADGES = {
   walking: 'good', 'in place': 'good', starting: 'warn', stopping: 'warn', fallen: 'bad', faulted: 'bad',
 };
 
+/** What is said beside the mode: nothing while the robot is balanced. */
+const BALANCE_BADGES = { 'catching itself': 'warn', falling: 'bad' };
+
 const $ = (id) => document.getElementById(id);
 const viewport = new Viewport($('viewport'));
 const player = new Player();
@@ -167,12 +170,16 @@ function showFacts(frame) {
     facts.push(['goal', places ? `${distance.toFixed(2)} m away` : 'reached']);
   }
   if (frame.missed) facts.push(['missed', `${frame.missed} deadlines`]);
-  const key = JSON.stringify([facts, frame.mode, frame.faults, instance]);
+  const balance = BALANCE_BADGES[frame.capturability];
+  const key = JSON.stringify([facts, frame.mode, frame.capturability, frame.faults, instance]);
   if (key === shownFacts) return;
   shownFacts = key;
   $('instance').textContent = instance;
   $('mode').textContent = frame.mode;
   $('mode').className = `badge ${MODE_BADGES[frame.mode] ?? ''}`;
+  $('balance').textContent = balance ? frame.capturability : '';
+  $('balance').className = `badge ${balance ?? ''}`;
+  $('balance').hidden = !balance;
   $('facts').replaceChildren(...facts.map(([name, value]) => {
     const row = document.createElement('div');
     const [term, text] = [document.createElement('dt'), document.createElement('dd')];

@@ -168,6 +168,8 @@ mod tests {
                 distance,
                 turn: 0.0,
             }),
+            capturability: None,
+            estimate: interface::StateEstimate::default(),
             faults: Faults::default(),
         }
     }

@@ -1,9 +1,11 @@
 //! What feedback, landing compliance and steps make of the measured balance.
 
-use model::ComState;
-use nalgebra::Vector2;
+use dynamics::SupportPolygon;
+use interface::Capturability;
+use model::{ComState, Side};
+use nalgebra::{Point3, Vector2};
 use pattern::{BodyTilt, MeasuredBalance};
-use stabilizer::BalanceState;
+use stabilizer::{BalanceState, CaptureEvidence};
 
 use super::Controller;
 
@@ -32,6 +34,7 @@ impl Controller {
         let loads = com.filter(|_| complies).map(|_| self.contact.loads);
         self.landing.update(loads, dt);
 
+        self.judge_capturability(com.as_ref(), dt);
         let gait = self.pattern.gait_mut();
         let tilt = if com.is_some() && !in_double_support { self.tilt } else { Vector2::zeros() };
         gait.set_tilt(BodyTilt { tilt, in_recovery: self.feedback.is_recovering() });
@@ -47,5 +50,42 @@ impl Controller {
         if let Some(choice) = choice.filter(|_| self.push_seen_for > PUSH_SEEN_MIN) {
             gait.adjust_step(choice);
         }
+    }
+
+    /// Judges whether the robot can still be kept from falling. Where its centre of mass is not known, and in the air,
+    /// only its tilt tells.
+    fn judge_capturability(&mut self, com: Option<&ComState>, dt: f64) {
+        let gait = self.pattern.gait();
+        let (can_step, is_recovering) = (!gait.in_double_support(), self.feedback.is_recovering());
+        let shortfall = com.and_then(|com| {
+            let dcm = com.divergent_component();
+            if !can_step {
+                Some((-self.planned_support().margin(dcm)).max(0.0))
+            } else if is_recovering {
+                let zmp_bounds = self.feedback.zmp_bounds();
+                gait.shortfall(&MeasuredBalance { dcm, zmp_bounds }).map(|shortfall| shortfall.norm())
+            } else {
+                Some(0.0)
+            }
+        });
+        let evidence = CaptureEvidence { is_recovering, shortfall, can_step, tilt: self.tilt.norm() };
+        self.capturability.update(&evidence, dt);
+    }
+
+    /// What it takes to keep the robot from falling; `None` while it holds a posture, whoever keeps it there.
+    pub(super) fn capturability(&self) -> Option<Capturability> {
+        if self.state.has_fallen() {
+            return Some(Capturability::Lost);
+        }
+        self.follows_walk().then(|| self.capturability.capturability())
+    }
+
+    /// The polygon of both soles as planned.
+    fn planned_support(&self) -> SupportPolygon {
+        let corners = Side::BOTH.into_iter().flat_map(|side| {
+            let sole = self.reference.kinematics().sole_to_world(&self.mechanism, side);
+            self.mechanism.sole.corners(side).map(|corner| (sole * Point3::from(corner)).coords.xy())
+        });
+        SupportPolygon::hull(corners)
     }
 }

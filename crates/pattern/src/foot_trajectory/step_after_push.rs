@@ -49,6 +49,22 @@ impl FootTrajectory {
         measured: &MeasuredBalance,
         [knots, lead]: [u32; 2],
     ) -> Option<StepChoice> {
+        let problem = self.step_problem(model, landings, measured, [knots, lead])?;
+        let choice = problem.solve();
+        let is_worth = (choice.offset - problem.offset).amax() > model.proportions.step_adjustment_change_min
+            || choice.knots.is_some_and(|knots| knots.abs_diff(problem.planned) >= KNOTS_WORTH);
+        is_worth.then_some(choice)
+    }
+
+    /// What a step is chosen from; `None` late in a half-step, and in a stand. Parameters as for
+    /// [`choose_step`](Self::choose_step).
+    pub(crate) fn step_problem(
+        &self,
+        model: &PatternModel,
+        landings: &[WalkPose; 2],
+        measured: &MeasuredBalance,
+        [knots, lead]: [u32; 2],
+    ) -> Option<StepProblem> {
         let walk = &self.footsteps.walk;
         let speed = walk.speed().state().value;
         let nominal = walk.table().duration / KNOT;
@@ -61,7 +77,7 @@ impl FootTrajectory {
         let fastest = (speed + SPEED_UP_MAX).min(SPEED_MAX);
         let proportions = &model.proportions;
         let planned = planned.round() as u32;
-        let problem = StepProblem {
+        Some(StepProblem {
             dcm: measured.dcm,
             dcm_at_touchdown: self.dcm_at_touchdown(model, landings),
             zmp: Vector2::new(0.0, model.mechanism.sole.centre(Side::Right).y),
@@ -78,11 +94,7 @@ impl FootTrajectory {
             offset_change_max: proportions.swing_speed_added_max * KNOT / PEAK_OF_QUINTIC,
             left_to_next_ankle: self.left_after_touchdown(model),
             cost_of_knot: proportions.offset_per_time * KNOT,
-        };
-        let choice = problem.solve();
-        let is_worth = (choice.offset - self.adjustment.target()).amax() > proportions.step_adjustment_change_min
-            || choice.knots.is_some_and(|knots| knots.abs_diff(planned) >= KNOTS_WORTH);
-        is_worth.then_some(choice)
+        })
     }
 
     /// Lets the swing foot land as chosen, as far as feet and legs allow. Returns whether that changed anything: in a

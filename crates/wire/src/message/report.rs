@@ -2,7 +2,8 @@
 
 use iceoryx2::prelude::ZeroCopySend;
 use interface::{
-    AddedAngles, DestinationProgress, Faults, HalfStep, Odometry, PeriodTiming, Report, WalkPose, WalkVelocity,
+    AddedAngles, Capturability, DestinationProgress, Faults, HalfStep, Odometry, PeriodTiming, Report, StateEstimate,
+    WalkPose, WalkVelocity,
 };
 use model::{ComState, Side};
 
@@ -11,7 +12,7 @@ use super::fault::Check;
 
 /// A [`Report`] as it lies in shared memory.
 #[derive(Clone, Copy, Debug, PartialEq, ZeroCopySend)]
-#[type_name("halfstep.Report.v4")]
+#[type_name("halfstep.Report.v5")]
 #[repr(C)]
 pub struct ReportMessage {
     /// Periods since the controller started.
@@ -71,6 +72,17 @@ pub struct ReportMessage {
     pub destination_distance: f64,
     /// Heading of the last place against the robot's (rad), within ±π; 0 if any will do.
     pub destination_turn: f64,
+    /// A [`Capturability`](interface::Capturability); 0 while no plan is followed.
+    pub capturability: u32,
+    /// Which feet touch the ground: 1 the right one, 2 the left one, 3 both.
+    pub contact: u32,
+    /// Horizontal force by which something pushes or pulls the robot, as estimated: x and y in the support foot's sole
+    /// frame (N).
+    pub external_force: [f64; 2],
+    /// By how much the centre of mass seems to be farther ahead and to the left than it is, likewise (m).
+    pub com_offset: [f64; 2],
+    /// Bias of the gyro about the axes of the trunk, as estimated (rad/s).
+    pub gyro_bias: [f64; 3],
     /// The [`Faults`] present.
     pub faults: u32,
     /// Deadlines missed since the start.
@@ -126,6 +138,16 @@ impl ReportMessage {
             destination_places_left: places_left,
             destination_distance: distance,
             destination_turn: turn,
+            capturability: report.capturability.map_or(0, Capturability::code),
+            contact: [1, 2]
+                .into_iter()
+                .zip(report.estimate.contact)
+                .filter(|(_, touches)| *touches)
+                .map(|(bit, _)| bit)
+                .sum(),
+            external_force: report.estimate.external_force.into(),
+            com_offset: report.estimate.com_offset.into(),
+            gyro_bias: report.estimate.gyro_bias.into(),
             faults: report.faults.0,
             missed: u32::try_from(timing.missed).unwrap_or(u32::MAX),
             compute_ns: timing.compute_ns,
@@ -168,6 +190,16 @@ impl ReportMessage {
             added,
             com_planned: com("com_planned", &self.com_planned, &self.com_velocity_planned)?,
             com_measured: com("com_in_support", &self.com_in_support, &self.com_velocity_in_support)?,
+            capturability: match self.capturability {
+                0 => None,
+                code => Some(check.code("capturability", code)?),
+            },
+            estimate: StateEstimate {
+                contact: [1, 2].map(|bit| self.contact & bit != 0),
+                external_force: check.numbers("external_force", &self.external_force)?.into(),
+                com_offset: check.numbers("com_offset", &self.com_offset)?.into(),
+                gyro_bias: check.numbers("gyro_bias", &self.gyro_bias)?.into(),
+            },
             odometry: self.odometry(&check)?,
             destination: self.destination_progress(&check)?,
             faults: Faults(self.faults),
@@ -250,6 +282,13 @@ mod tests {
                 support_sole: WalkPose { x: 1.1, y: 2.1, heading: 3.1 },
                 landings: [WalkPose { x: 1.2, y: 2.2, heading: 3.2 }, WalkPose { x: 1.3, y: 2.3, heading: 3.3 }],
             },
+            capturability: Some(Capturability::BySteps),
+            estimate: StateEstimate {
+                contact: [true, false],
+                external_force: [12.0, -7.0].into(),
+                com_offset: [0.01, -0.002].into(),
+                gyro_bias: [0.01, 0.02, -0.03].into(),
+            },
             destination: Some(DestinationProgress { places_left: 3, distance: 1.2, turn: -0.5 }),
             faults: [Fault::InTheAir, Fault::DeadlineMissed].into_iter().collect(),
         };
@@ -260,6 +299,7 @@ mod tests {
             added: None,
             com_planned: None,
             com_measured: None,
+            capturability: None,
             destination: None,
             ..known
         };
@@ -301,6 +341,11 @@ mod tests {
             destination_places_left: 0,
             destination_distance: 0.0,
             destination_turn: 0.0,
+            capturability: 0,
+            contact: 3,
+            external_force: [0.0; 2],
+            com_offset: [0.0; 2],
+            gyro_bias: [0.0; 3],
             faults: 0,
             missed: 0,
             compute_ns: 0,

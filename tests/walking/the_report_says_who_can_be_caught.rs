@@ -1,0 +1,69 @@
+//! The report says at every tick whether the robot can still be kept from falling: by its ankles, by steps, or not.
+//! `survey capturability` counts how often it is right about pushes around the limit.
+
+use halfstep_tests::pushing::{Direction, PUSH_DURATION, stand, walk_to};
+use halfstep_tests::walking::Walking;
+use interface::{Capturability, GaitChange};
+
+/// What was reported after a push.
+struct Judged {
+    /// Each judgement in its order, without repetitions.
+    sequence: Vec<Capturability>,
+    has_fallen: bool,
+}
+
+fn pushed(mut walking: Walking, direction: Direction, impulse: f64) -> Judged {
+    let support = walking.tick(None).report.half_step.support;
+    walking.plant.push(direction.in_world(&walking, support) * impulse, PUSH_DURATION);
+    let mut sequence = Vec::new();
+    for _ in 0..5000 {
+        let tick = walking.tick(None);
+        sequence.extend(tick.report.capturability);
+        sequence.dedup();
+        if walking.has_fallen(&tick) {
+            return Judged { sequence, has_fallen: true };
+        }
+    }
+    Judged { sequence, has_fallen: false }
+}
+
+fn walking() -> Walking {
+    walk_to(0, GaitChange::NONE, 8, 0.3).expect("the nominal walks")
+}
+
+#[test]
+fn an_undisturbed_walk_is_always_balanced() {
+    let judged = pushed(walking(), Direction::Forward, 0.0);
+    assert_eq!(judged.sequence, [Capturability::ByAnkles]);
+}
+
+#[test]
+fn a_push_that_is_survived_is_caught_by_steps_and_forgotten() {
+    for (direction, impulse) in [(Direction::Forward, 25.0), (Direction::Back, 22.0), (Direction::ToSwing, 12.0)] {
+        let Judged { sequence, has_fallen } = pushed(walking(), direction, impulse);
+        assert!(!has_fallen && sequence.contains(&Capturability::BySteps), "{direction:?}: {sequence:?}");
+        assert_eq!(sequence.last(), Some(&Capturability::ByAnkles), "{direction:?}: {sequence:?}");
+        assert!(!sequence.contains(&Capturability::Lost), "{direction:?}: {sequence:?}");
+    }
+}
+
+#[test]
+fn a_fall_is_foreseen() {
+    for direction in Direction::ALL {
+        let Judged { sequence, has_fallen } = pushed(walking(), direction, 90.0);
+        assert!(has_fallen, "{direction:?}");
+        assert_eq!(sequence.last(), Some(&Capturability::Lost), "{direction:?}: {sequence:?}");
+        assert!(sequence.contains(&Capturability::BySteps), "it was not lost from the beginning: {sequence:?}");
+    }
+}
+
+#[test]
+fn a_stand_is_lost_once_it_leaves_its_feet() {
+    for direction in Direction::ALL {
+        let judged = pushed(stand(0), direction, 6.0);
+        assert!(!judged.has_fallen && judged.sequence == [Capturability::ByAnkles], "{:?}", judged.sequence);
+        let judged = pushed(stand(0), direction, 60.0);
+        assert!(judged.has_fallen, "{direction:?}");
+        assert_eq!(judged.sequence, [Capturability::ByAnkles, Capturability::Lost], "{direction:?}");
+    }
+}
