@@ -17,6 +17,17 @@ fn outcome(reply: &PushReplyMessage) -> PushOutcome {
 
 #[test]
 fn a_push_by_hand_repeats_as_a_script() {
+    repeats_as_a_script("");
+}
+
+#[test]
+#[ignore = "needs Python packages: see docs/contributing.md"]
+fn a_push_by_hand_repeats_as_a_script_in_mujoco() {
+    repeats_as_a_script("--engine mujoco");
+}
+
+/// * `engine` – option by which the plant is moved
+fn repeats_as_a_script(engine: &str) {
     let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
     let words = "--lockstep --for 6s";
     let controller = command_line.start_here(&format!("controller {words} --out by_hand"));
@@ -25,7 +36,7 @@ fn a_push_by_hand_repeats_as_a_script() {
         PushClient::connect(command_line.wire_instance()).map(drop),
         Err(PushError::NoPlant { instance: command_line.instance().to_owned() })
     );
-    let plant = command_line.start_here(&format!("plant {words} --out by_hand"));
+    let plant = command_line.start_here(&format!("plant {engine} {words} --out by_hand"));
     let client = loop {
         match PushClient::connect(command_line.wire_instance()) {
             Ok(client) => break client,
@@ -64,7 +75,7 @@ fn a_push_by_hand_repeats_as_a_script() {
     std::fs::write(command_line.folder().join("script.toml"), script).unwrap();
     let walk = |out: &str, disturbed: &str| {
         let controller = command_line.start_here(&format!("controller {words} --out {out}"));
-        let plant = command_line.start_here(&format!("plant {words} --out {out} {disturbed}"));
+        let plant = command_line.start_here(&format!("plant {engine} {words} --out {out} {disturbed}"));
         assert_eq!([controller.finish().code, plant.finish().code], [Some(0); 2]);
         command_line.csv(out, "plant")
     };

@@ -36,7 +36,7 @@ codes! {
         OutOfRange = 2 "a push must last 1 ms to 10 s and have at most 10000 N·s",
         /// As many others act as may.
         TooMany = 3 "too many pushes act at the same time",
-        /// Another program computes the physics.
-        ExternalEngine = 4 "another program computes the physics: it takes pushes from --disturbances only",
+        /// Another program computes the physics, and its robot has no body for the link.
+        NoSuchLink = 4 "the engine that computes the physics has no such link",
     }
 }

@@ -11,6 +11,7 @@ use std::time::Duration;
 
 use crossbeam::queue::ArrayQueue;
 use interface::{PushOutcome, PushReply, PushRequest};
+use model::{Joint, PerJoint};
 use wire::{PushReplyMessage, PushResponder, PushServer};
 
 use crate::cycle::Clock;
@@ -24,8 +25,8 @@ const POLL_INTERVAL: Duration = Duration::from_millis(2);
 /// Delivers requests to the plant's loop and takes its replies.
 pub struct PushBridge {
     path: PushPath,
-    /// Why no push is passed on, if none is.
-    refusal: Option<PushOutcome>,
+    /// The links that can be pushed.
+    pushable: PerJoint<bool>,
 }
 
 /// Who reads and writes shared memory.
@@ -51,7 +52,7 @@ impl PushBridge {
     /// The operating system refused another thread.
     pub fn new(server: PushServer, clock: Clock) -> Result<Self, NodeError> {
         if clock == Clock::Lockstep {
-            return Ok(Self { path: PushPath::Inline(server), refusal: None });
+            return Ok(Self { path: PushPath::Inline(server), pushable: PerJoint::from_fn(|_| true) });
         }
         let (requests, replies) = (ArrayQueue::new(REQUESTS), ArrayQueue::new(REQUESTS));
         let queues = Arc::new(PushQueues { requests, replies, closed: AtomicBool::new(false) });
@@ -60,23 +61,22 @@ impl PushBridge {
             .name("push-bridge".to_owned())
             .spawn(move || exchange(server, &shared))
             .map_err(NodeError::Thread)?;
-        Ok(Self { path: PushPath::Threaded(queues, Some(thread)), refusal: None })
+        Ok(Self { path: PushPath::Threaded(queues, Some(thread)), pushable: PerJoint::from_fn(|_| true) })
     }
 
-    /// The same for a robot that cannot be pushed: every request is refused.
+    /// The same for a robot that can be pushed on some links only: requests for others are refused.
     #[must_use]
-    pub fn refusing(mut self, refusal: PushOutcome) -> Self {
-        self.refusal = Some(refusal);
+    pub fn on_links(mut self, pushable: impl Fn(Joint) -> bool) -> Self {
+        self.pushable = PerJoint::from_fn(pushable);
         self
     }
 
     /// Passes all requests that have arrived to the loop's `begin`, and its replies back. With a thread it neither
     /// allocates nor waits.
     pub fn serve(&mut self, mut begin: impl FnMut(&PushRequest) -> PushReply) {
-        let refusal = self.refusal;
-        let mut begin =
-            |request: &PushRequest| refusal.map_or_else(|| begin(request), |outcome| PushReply { outcome, start: 0.0 });
-        match &mut self.path {
+        let Self { path, pushable } = self;
+        let mut begin = |request: &PushRequest| if pushable[request.link] { begin(request) } else { NO_SUCH_LINK };
+        match path {
             PushPath::Inline(server) => {
                 // A client whose memory cannot be reached has gone.
                 while let Ok(Some((message, responder))) = server.next_push() {
@@ -106,6 +106,9 @@ impl Drop for PushBridge {
 
 /// The reply to a message that is no push.
 const INVALID: PushReply = PushReply { outcome: PushOutcome::Invalid, start: 0.0 };
+
+/// The reply to a push on a link that cannot be pushed.
+const NO_SUCH_LINK: PushReply = PushReply { outcome: PushOutcome::NoSuchLink, start: 0.0 };
 
 /// Moves requests and replies between shared memory and the queues until these are closed.
 fn exchange(mut server: PushServer, queues: &PushQueues) {

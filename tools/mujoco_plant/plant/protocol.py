@@ -2,8 +2,9 @@
 
 1. `halfstep` writes one line of JSON (see `Robot.__init__`), this process answers with one (`hello`).
 2. Then, per control period, `halfstep` writes a setpoint and this process answers with a state: little-endian doubles,
-   laid out as in `SETPOINT` and `STATE`. Where the robot has come to other ground, the setpoint is followed by a
-   floor, in the form of the first message's `"floor"`, as JSON. When stdin ends, so does this process.
+   laid out as in `SETPOINT` and `STATE`. Where the robot's world has changed, the setpoint is followed by a JSON object:
+   `"floor"` is there if the robot has come to other ground, `"pushes"` are new ones, both in the form of the first
+   message's. When stdin ends, so does this process.
 
 The robot comes in one of two forms. `"mjcf"` is a complete model of the twenty-joint mechanism. `"urdf"`, with
 `"urdf_setup"`, is a vendor's URDF. README.md lists what `"urdf_setup"` contains.
@@ -12,9 +13,9 @@ The robot comes in one of two forms. `"mjcf"` is a complete model of the twenty-
 which then is part of the model.
 """
 
-PROTOCOL = 3
+PROTOCOL = 4
 JOINTS = 20
-# angles, rates, feed-forward torques; number of bytes of a floor that follows
+# angles, rates, feed-forward torques; number of bytes of a change that follows
 SETPOINT = 3 * JOINTS + 1
 # right sole: place, quaternion w x y z, angular rate, velocity; angles, rates; ground's force and moment on the right
 # and on the left foot, about the right sole's origin; motor torques. All but the joints' in world axes.

@@ -53,6 +53,12 @@ class Robot:
         """The robot, and the name of one of its soles."""
         return mujoco.MjSpec.from_string(told["mjcf"]), "right_foot"
 
+    def change(self, change):
+        """Goes on with another floor under the robot, with more pushes, or both."""
+        if (bodies := change.get("floor")) is not None:
+            self.lay_floor(bodies)
+        self.pushes += change["pushes"]
+
     def lay_floor(self, bodies):
         """Goes on with another floor under the robot."""
         self.floor.lay(bodies)
@@ -113,6 +119,11 @@ class Robot:
                 force = np.array(push["impulse"]) * (covered / (push["duration"] * self.step_s))
                 body, point = self._pushed(push["body"])
                 mujoco.mj_applyFT(self.model, data, force, np.zeros(3), point, body, data.qfrc_applied)
+
+    def links(self):
+        """Names of the links that can be pushed: those with a mass of their own."""
+        model = self.model
+        return [model.body(number).name for number in range(1, model.nbody) if model.body_mass[number] > 0]
 
     def _pushed(self, name):
         """The body of a link, and the link's centre of mass in the world."""

@@ -27,13 +27,14 @@ def serve():
     except (ValueError, ElementTree.ParseError) as error:
         sys.exit(f"MuJoCo cannot load the robot: {error}")
     hello = {"protocol": PROTOCOL, "engine": f"MuJoCo {mujoco.__version__}", "setpoint": SETPOINT, "state": STATE}
+    hello["links"] = robot.links()
     os.write(STATES, json.dumps(hello).encode() + b"\n")
     # Nobody left to answer is as good an end as no more setpoints.
     with contextlib.suppress(BrokenPipeError):
         while len(record := sys.stdin.buffer.read(8 * SETPOINT)) == 8 * SETPOINT:
-            *setpoint, floor_bytes = np.frombuffer(record, "<f8")
-            if floor_bytes:
-                robot.lay_floor(json.loads(sys.stdin.buffer.read(int(floor_bytes))))
+            *setpoint, change_bytes = np.frombuffer(record, "<f8")
+            if change_bytes:
+                robot.change(json.loads(sys.stdin.buffer.read(int(change_bytes))))
             robot.setpoint[:] = np.reshape(setpoint, (3, JOINTS))
             robot.advance()
             os.write(STATES, robot.state.astype("<f8", copy=False).tobytes())

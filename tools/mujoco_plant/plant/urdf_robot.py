@@ -65,6 +65,10 @@ class UrdfRobot(Robot):
         mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_SITE, self.sole, motion, 0)
         return data.site_xpos[self.sole].copy(), orientation, motion[0:3], motion[3:6]
 
+    def links(self):
+        """Names of the links that can be pushed."""
+        return list(self.pushable)
+
     def _pushed(self, name):
         body, local = self.pushable[name]
         return body, self.data.xpos[body] + self.data.xmat[body].reshape(3, 3) @ local

@@ -124,7 +124,7 @@ class PushOutcome(IntEnum):
     INVALID = 1  # a push needs a link with a body, a finite impulse and a duration
     OUT_OF_RANGE = 2  # a push must last 1 ms to 10 s and have at most 10000 N·s
     TOO_MANY = 3  # too many pushes act at the same time
-    EXTERNAL_ENGINE = 4  # another program computes the physics: it takes pushes from --disturbances only
+    NO_SUCH_LINK = 4  # the engine that computes the physics has no such link
 
 
 class SensorGroup(IntFlag):

@@ -1,6 +1,6 @@
 //! `halfstep plant`: the process that is the robot.
 
-use interface::{PushOutcome, Setpoint};
+use interface::Setpoint;
 use std::path::{Path, PathBuf};
 
 use gait::{Robot, Start, Walk};
@@ -93,8 +93,8 @@ impl PlantArgs {
         let to = self.recorded(&files, attached.collect(), realtime.rate, robot.mechanism.fingerprint)?;
         realtime.keep_off_the_loop(clock);
         let mut pushes = PushBridge::new(pushes, clock)?;
-        if outside.is_some() {
-            pushes = pushes.refusing(PushOutcome::ExternalEngine);
+        if let Some(engine) = &outside {
+            pushes = pushes.on_links(|link| engine.has(link));
         }
         let (mut recorder, recorder_thread) = recorder::of_plant(clock, realtime.rate, to, self.child.announced())?;
         let ticks = self.runs.ticks(realtime.rate);

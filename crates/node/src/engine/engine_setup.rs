@@ -2,7 +2,7 @@
 
 use interchange::mjcf::mjcf_text_on;
 use model::{Joint, Mechanism, UrdfSource};
-use plant::{Disturbances, PlantParameters, RobotState, with_mass_error};
+use plant::{Disturbances, PlantParameters, Push, RobotState, with_mass_error};
 use serde::Serialize;
 
 use super::engine_error::EngineError;
@@ -30,6 +30,9 @@ pub struct EngineSetup {
     pushes: Vec<ScheduledPush>,
     /// Bodies of the floor around the robot; none if it is a plane.
     floor: Vec<FloorBody>,
+    /// The pushes above.
+    #[serde(skip)]
+    pub(super) told_pushes: Vec<Push>,
     #[serde(skip)]
     pub(super) laid_floor: Option<LaidFloor>,
 }
@@ -58,11 +61,23 @@ struct InitialState {
 
 /// A push at a link's centre of mass.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-struct ScheduledPush {
+pub(super) struct ScheduledPush {
     body: &'static str,
     impulse: [f64; 3],
     start: f64,
     duration: f64,
+}
+
+impl From<&Push> for ScheduledPush {
+    fn from(push: &Push) -> Self {
+        let Push { link, impulse, start, duration } = *push;
+        Self { body: body_of(link), impulse: impulse.into(), start, duration }
+    }
+}
+
+/// The name by which an engine knows a link.
+pub(super) fn body_of(link: Joint) -> &'static str {
+    link.link_name().unwrap_or(link.name())
 }
 
 impl EngineSetup {
@@ -106,16 +121,8 @@ impl EngineSetup {
                 angles: start.angles.0,
                 rates: start.rates.0,
             },
-            pushes: disturbances
-                .pushes
-                .iter()
-                .map(|push| ScheduledPush {
-                    body: push.link.link_name().unwrap_or(push.link.name()),
-                    impulse: push.impulse.into(),
-                    start: push.start,
-                    duration: push.duration,
-                })
-                .collect(),
+            pushes: disturbances.pushes.iter().map(ScheduledPush::from).collect(),
+            told_pushes: disturbances.pushes.clone(),
             floor: laid_floor.as_ref().map(LaidFloor::bodies).unwrap_or_default(),
             laid_floor,
         })

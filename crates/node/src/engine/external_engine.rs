@@ -8,12 +8,13 @@ use std::time::Duration;
 
 use crossbeam::channel::{Receiver, RecvTimeoutError, Sender, bounded};
 
-use plant::Plant;
+use model::Joint;
+use plant::{Plant, Push};
 use serde::{Deserialize, Serialize};
 
 use super::engine_error::EngineError;
-use super::engine_setup::EngineSetup;
-use super::laid_floor::LaidFloor;
+use super::engine_setup::{EngineSetup, ScheduledPush, body_of};
+use super::laid_floor::{FloorBody, LaidFloor};
 use super::message::{PROTOCOL, SETPOINT_LEN, STATE_LEN, decode_state, encode_setpoint};
 
 /// An engine's answer to the first message.
@@ -23,6 +24,18 @@ struct Hello {
     engine: String,
     setpoint: usize,
     state: usize,
+    /// Names of the links that can be pushed.
+    links: Vec<String>,
+}
+
+/// What has changed in the robot's world since the period before.
+#[derive(Debug, Serialize)]
+struct Change {
+    /// The floor around the robot, if that is another one now.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    floor: Option<Vec<FloorBody>>,
+    /// Pushes that have been added.
+    pushes: Vec<ScheduledPush>,
 }
 
 /// An engine in another process. It ends when dropped.
@@ -33,6 +46,10 @@ pub struct ExternalEngine {
     /// What a thread has read of the engine's output: reading by itself would wait for a hung engine without end.
     answers: Receiver<std::io::Result<Answer>>,
     floor: Option<LaidFloor>,
+    /// The pushes that the engine knows.
+    told_pushes: Vec<Push>,
+    /// The links that it can push, by their names.
+    links: Vec<String>,
     /// The engine's name as it reports it.
     pub name: String,
 }
@@ -65,7 +82,15 @@ impl ExternalEngine {
             .map_err(|cause| EngineError::Start { program, cause })?;
         let (setpoints, states) = (child.stdin.take(), child.stdout.take().expect("a pipe was asked for"));
         let (outgoing, answers) = bounded(1);
-        let mut engine = Self { child, setpoints, answers, floor: setup.laid_floor.clone(), name: String::new() };
+        let mut engine = Self {
+            child,
+            setpoints,
+            answers,
+            floor: setup.laid_floor.clone(),
+            told_pushes: setup.told_pushes.clone(),
+            links: Vec::new(),
+            name: String::new(),
+        };
         std::thread::Builder::new()
             .name("engine".to_owned())
             .spawn(move || read_answers(BufReader::new(states), &outgoing))
@@ -78,7 +103,7 @@ impl ExternalEngine {
         let hello = serde_json::from_str::<Hello>(&answer).ok();
         let fits = |hello: &Hello| (hello.protocol, hello.setpoint, hello.state) == (PROTOCOL, SETPOINT_LEN, STATE_LEN);
         let hello = hello.filter(fits).ok_or_else(|| EngineError::Mismatch(answer.trim().to_owned()))?;
-        engine.name = hello.engine;
+        (engine.name, engine.links) = (hello.engine, hello.links);
         Ok(engine)
     }
 
@@ -87,17 +112,38 @@ impl ExternalEngine {
     /// # Errors
     /// The engine has ended, or its state is not finite.
     pub fn step(&mut self, plant: &mut Plant, setpoint: &Setpoint) -> Result<Measurement, EngineError> {
-        let floor = self.floor.as_mut().and_then(|floor| floor.follow(plant)).map(|bodies| in_json(&bodies));
-        let floor = floor.transpose()?.unwrap_or_default();
-        self.send(&encode_setpoint(setpoint, floor.len()))?;
-        if !floor.is_empty() {
-            self.send(floor.as_bytes())?;
+        let change = self.change(plant).map(|change| in_json(&change)).transpose()?.unwrap_or_default();
+        self.send(&encode_setpoint(setpoint, change.len()))?;
+        if !change.is_empty() {
+            self.send(change.as_bytes())?;
         }
         let Answer::State(state) = self.answer(STEP_MAX)? else {
             return Err(EngineError::Mismatch("a second line".to_owned()));
         };
         let state = decode_state(&state).ok_or(EngineError::NotFinite { time: plant.time() })?;
         Ok(plant.adopt(state))
+    }
+
+    /// Whether the engine's robot has a body for a link, so that it can be pushed.
+    pub fn has(&self, link: Joint) -> bool {
+        self.links.iter().any(|name| name == body_of(link))
+    }
+
+    /// What the engine does not know yet.
+    fn change(&mut self, plant: &Plant) -> Option<Change> {
+        let floor = self.floor.as_mut().and_then(|floor| floor.follow(plant));
+        let pushes: Vec<Push> = plant.disturbances.pushes.iter().copied().filter(|push| self.is_news(push)).collect();
+        if floor.is_none() && pushes.is_empty() {
+            return None;
+        }
+        // Pushes that are over can be forgotten: the plant has none of them either.
+        self.told_pushes.retain(|push| push.start + push.duration > plant.time());
+        self.told_pushes.extend_from_slice(&pushes);
+        Some(Change { floor, pushes: pushes.iter().map(ScheduledPush::from).collect() })
+    }
+
+    fn is_news(&self, push: &Push) -> bool {
+        !self.told_pushes.contains(push)
     }
 
     fn answer(&mut self, timeout: Duration) -> Result<Answer, EngineError> {
