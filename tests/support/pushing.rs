@@ -113,7 +113,11 @@ pub fn stand(seed: u64) -> Walking {
 
 /// The walk by `request` at a progress of a half-step, long after its beginning; `None` if it falls before.
 pub fn walk_to(seed: u64, request: GaitChange, half_step: u64, progress: f64) -> Option<Walking> {
-    let mut walking = Walking::begin(seed);
+    walk_on_by(Walking::begin(seed), request, half_step, progress)
+}
+
+/// The same of a walk that has just begun, whichever robot's it is.
+pub fn walk_on_by(mut walking: Walking, request: GaitChange, half_step: u64, progress: f64) -> Option<Walking> {
     walking.ask(request, Some(Intent::Walk));
     walk_on_to(walking, half_step, progress)
 }

@@ -1,6 +1,7 @@
 //! Controller and plant walking together in one process, in lockstep.
 
 use std::collections::VecDeque;
+use std::path::Path;
 use std::sync::Arc;
 
 use config::Config;
@@ -107,6 +108,17 @@ impl Walking {
         let controller = Controller::new(mechanism, table, controller, Start::default()).expect("the nominal walks");
         let driver = Driver { controller, worker: InlineWorker };
         Self::new(driver, plant)
+    }
+
+    /// A robot at the beginning of the nominal half-step of its configuration's folder, as `halfstep import` writes one.
+    pub fn of_robot(folder: &Path, seed: u64) -> Self {
+        let file = |name: &str| folder.join(name);
+        let mechanism = Mechanism::load(file("mechanism.toml")).unwrap_or_else(|error| panic!("{error}"));
+        let table = NominalTable::read_csv(&file("nominal_half_step.csv")).unwrap_or_else(|error| panic!("{error}"));
+        let controller =
+            controller::Parameters::load(file("controller.toml")).unwrap_or_else(|error| panic!("{error}"));
+        let plant = plant::PlantParameters::load(file("plant.toml")).unwrap_or_else(|error| panic!("{error}"));
+        Self::begin_by(&mechanism, Arc::new(table), &controller, &plant, seed)
     }
 
     fn new(driver: Driver<InlineWorker>, mut plant: Plant) -> Self {
