@@ -8,8 +8,10 @@ mod command;
 mod error;
 pub mod imported_robot;
 mod output;
+mod plotted_run;
 mod process;
 mod progress;
+mod recorded_floor;
 mod status;
 mod walk_summary;
 

@@ -119,6 +119,15 @@ pub(super) fn duration(text: &str) -> Result<Duration, String> {
     if duration < DURATION_MIN { Err("must be at least 1ms".to_owned()) } else { Ok(duration) }
 }
 
+/// A time of a run in seconds: `3.5`, or with a unit as in `3500ms`.
+pub(super) fn run_time(text: &str) -> Result<f64, String> {
+    let seconds = match text.parse::<f64>() {
+        Ok(seconds) => Some(seconds).filter(|seconds| seconds.is_finite() && *seconds >= 0.0),
+        Err(_) => humantime::parse_duration(text).ok().map(|time| time.as_secs_f64()),
+    };
+    seconds.ok_or_else(|| "must be a time since the start of the run, e.g. 3.5s or 2min".to_owned())
+}
+
 /// A number as people write it.
 pub(super) fn number(text: &str) -> Result<f64, String> {
     text.parse().map_err(|_| "must be a number, e.g. 10 or -2.5".to_owned())

@@ -16,9 +16,11 @@ use node::tell::tell;
 use operator::reply_text::reply_text;
 use operator::script::{Reader, ScriptError, TimedRequest};
 use operator::script_runner::ScriptRunner;
-use plots::picture;
+use plots::picture::{self, FloorHeights};
 use plots::run_log::RunLog;
-use record::{RUN_FILE, files_of, merge, set_folder_aside};
+use plots::run_page::run_page;
+use plots::run_summary::RunSummary;
+use record::{RUN_FILE, files_of, merge, provenance_of, set_folder_aside};
 use runtime::Rate;
 use wire::{ConnectError, Instance, InstanceName, Leftovers, ObserverPorts, OperatorPorts};
 
@@ -29,6 +31,7 @@ use crate::error::CliError;
 use crate::output::{print, write_files};
 use crate::process::Process;
 use crate::progress::Progress;
+use crate::recorded_floor::{floor_of, recorded_ground};
 use crate::status::Status;
 use crate::walk_summary::{SummaryInFolder, WalkSummary};
 
@@ -266,7 +269,14 @@ impl WalkArgs {
         };
         let text = serde_json::to_string_pretty(&summary).map_err(CliError::new)?;
         let mut files = vec![("summary.json", text + "\n")];
-        files.extend(picture::of_run(&log, &robot.mechanism));
+        let origin = provenance_of(folder)?;
+        // The parameters were checked before the walk began.
+        let floor = recorded_ground(&origin)?.map_or(FloorHeights::PLANE, floor_of);
+        let pictures = picture::of_run(&log, &robot.mechanism, &floor);
+        let of_run = RunSummary::of(&log, &robot.mechanism);
+        let name = folder.display().to_string();
+        files.push(("index.html", run_page(&name, &of_run, &pictures, &log.notes, &origin)));
+        files.extend(pictures.drawn.into_iter().map(|picture| (picture.file, picture.svg)));
         // Without room for them the summary is printed at least.
         if let Err(error) = write_files(folder, &files) {
             summary.problems.push(error.to_string());
