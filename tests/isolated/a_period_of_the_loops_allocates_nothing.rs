@@ -11,7 +11,7 @@ use gait::Start;
 use halfstep_tests::counting::allocations;
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::{controller_parameters, nominal, plant_parameters};
-use interface::{GaitChange, Request, Setpoint, Source};
+use interface::{GaitChange, Rate, Request, Setpoint, Source};
 use node::admission_worker::ClockedWorker;
 use node::announcements::Announced;
 use node::controller_loop::run_controller;
@@ -23,7 +23,7 @@ use node::recorder;
 use node::request_bridge::RequestBridge;
 use node::request_queue::{CAPACITY, RequestQueue};
 use plant::Plant;
-use runtime::{Rate, Scheduling, Usage};
+use runtime::{Scheduling, Usage};
 use wire::{ControllerPorts, Instance, OperatorPorts, PlantPorts};
 
 use crate::alone;

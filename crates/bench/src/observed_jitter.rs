@@ -8,11 +8,12 @@ use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use interface::Rate;
 use model::Mechanism;
 use node::summary::ControllerSummary;
 use node::timing::TimingStats;
 use plant::Plant;
-use runtime::{Period, Rate, keep_off};
+use runtime::{Period, keep_off};
 use wire::{Instance, ObserverPorts, OperatorPorts};
 
 use crate::control_latency::{SimulatedRobot, connect_retrying};

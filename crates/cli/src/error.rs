@@ -108,6 +108,15 @@ impl From<interchange::import::ImportError> for CliError {
     }
 }
 
+impl From<robots::ImportedRobotError> for CliError {
+    fn from(error: robots::ImportedRobotError) -> Self {
+        match error {
+            robots::ImportedRobotError::Import(error) => error.into(),
+            error => Self::bad_input(error),
+        }
+    }
+}
+
 impl From<plots::run_log::CsvError> for CliError {
     fn from(error: plots::run_log::CsvError) -> Self {
         Self::new(error)

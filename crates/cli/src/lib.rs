@@ -3,13 +3,12 @@
 //! One command per file in `command`: its options, and what it prints. The crates below do the work. `process` runs
 //! other `halfstep` processes, `error` and `status` are how a command ends, `output` prints and writes.
 
-pub mod built_in_robots;
 mod command;
 mod error;
-pub mod imported_robot;
 mod output;
 mod process;
 mod progress;
+mod robot_folder;
 mod status;
 mod walk_summary;
 

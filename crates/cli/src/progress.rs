@@ -1,9 +1,8 @@
 //! The progress of a walk, on a terminal.
 
 use indicatif::{ProgressBar, ProgressStyle};
-use interface::{DestinationProgress, Report};
+use interface::{DestinationProgress, Rate, Report};
 use node::tell::tell;
-use runtime::Rate;
 
 /// How far it is to a destination: `goal in 1.2 m, 3 places left`.
 pub(crate) fn goal_text(progress: &DestinationProgress) -> String {

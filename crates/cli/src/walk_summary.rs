@@ -39,6 +39,9 @@ pub(crate) struct WalkSummary {
     /// How well the controller's loop kept time; `None` in lockstep.
     #[serde(rename = "kept_time")]
     pub timing: Option<TimingStats>,
+    /// Hash of all setpoints, which is the same for the same bits; absent in JSON in real time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub setpoint_hash: Option<String>,
     /// Entries missing in the recording because its writers fell behind.
     pub log_gaps: u64,
     /// What went wrong beside a fall, one text each: the simulation became unstable, or the run could not be recorded.
@@ -100,6 +103,7 @@ impl fmt::Display for WalkSummary {
         let Self { real_time_factor, deadline_misses, log_gaps, timing, .. } = self;
         let (misses, gaps) = (counted(*deadline_misses, "deadline"), counted(*log_gaps, "report"));
         write!(out, "{real_time_factor:.1} × real time, {misses} missed, {gaps} dropped")?;
+        self.setpoint_hash.as_ref().map_or(Ok(()), |hash| write!(out, ", setpoints {hash}"))?;
         timing.map_or(Ok(()), |timing| write!(out, "\nthe controller's {timing}"))?;
         self.problems.iter().try_for_each(|problem| write!(out, "\n{problem}"))
     }

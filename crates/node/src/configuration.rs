@@ -63,8 +63,7 @@ pub fn controller(
     from_stand: bool,
 ) -> Result<Controller, NodeError> {
     if clock == Clock::Lockstep {
-        // Operators live by wall-clock time, and half a second of lockstep passes in a few milliseconds.
-        parameters.arbiter.timeout = None;
+        parameters = parameters.for_lockstep();
     }
     let begin = if from_stand { Controller::standing } else { Controller::new };
     begin(&robot.mechanism, Arc::clone(&robot.nominal), &parameters, Start::default()).map_err(NodeError::configuration)

@@ -2,10 +2,9 @@
 
 use std::time::Duration;
 
-use interface::{Measurement, PushOutcome, PushReply, Setpoint};
-use model::JointVector;
-use plant::{Instability, Plant};
-use runtime::{Rate, now_ns};
+use interface::{Measurement, PushOutcome, PushReply, Rate, Setpoint};
+use plant::{Instability, Obedience, Plant};
+use runtime::now_ns;
 use wire::{LatestWriter, MeasurementMessage, SetpointMessage};
 
 use crate::cycle::Cycles;
@@ -17,9 +16,6 @@ use crate::recorder::Recorder;
 
 /// Time between two records of the robot's true state.
 const TRUTH_INTERVAL: Duration = Duration::from_millis(5);
-/// Largest differences of a setpoint from the initial posture (rad) and its rates (rad/s) with which the robot is let
-/// go.
-const RELEASE_TOLERANCE: [f64; 2] = [0.05, 0.3];
 /// How long the run goes on after the robot has fallen, if the run ends with a fall.
 const AFTER_FALL: Duration = Duration::from_millis(500);
 
@@ -56,9 +52,8 @@ impl Intervals {
 }
 
 /// Runs until the cycles end, until the simulation has become unstable or, if `end_when_fallen`, until half a second
-/// after the robot has fallen. The robot is held where it is until a controller begins there: one that commands another
-/// posture would throw the robot over, and one that only keeps the joints where they are balances nothing. `step`
-/// computes the physics of one control period; `pushes` are on the robot as this process simulates it.
+/// after the robot has fallen. `step` computes the physics of one control period; `pushes` are on the robot as this
+/// process simulates it.
 ///
 /// # Errors
 /// In lockstep no setpoint has arrived for too long, or the physics cannot be computed.
@@ -72,9 +67,7 @@ pub fn run_plant(
     end_when_fallen: bool,
 ) -> Result<PlantRun, NodeError> {
     let mut run = PlantRun::default();
-    let initial = Setpoint { angles: plant.robot.angles, rates: plant.robot.rates, ..Setpoint::default() };
-    let mut setpoint = initial;
-    let mut is_held = true;
+    let mut obedience = Obedience::of(plant);
     let (mut began_ns, mut last_tick) = (None, None);
     let Intervals { truth_ticks, after_fall_ticks } = Intervals::at(cycles.rate());
     let mut next_truth = truth_ticks;
@@ -103,14 +96,11 @@ pub fn run_plant(
         }
         // An invalid setpoint is not obeyed: the drives keep the last one.
         if let Ok(valid) = cycle.message.checked() {
-            setpoint = valid;
+            obedience.hear(&valid);
         }
-
-        is_held &= only_holds(&setpoint) || !begins_at(&setpoint, &initial);
-        let mut pass = || if is_held { Ok(plant.hold()) } else { step(plant, &setpoint) };
-        let mut measured = pass()?;
+        let mut measured = obedience.obey(plant, &mut step)?;
         for _ in 1..cycle.periods {
-            measured = pass()?;
+            measured = obedience.obey(plant, &mut step)?;
         }
         run.ticks = cycle.tick + 1;
         run.unstable = plant.instability();
@@ -134,17 +124,6 @@ pub fn run_plant(
         }
     }
     Ok(run)
-}
-
-/// Whether a setpoint is near the initial posture, and as fast.
-fn begins_at(setpoint: &Setpoint, initial: &Setpoint) -> bool {
-    let [angle, rate] = RELEASE_TOLERANCE;
-    (setpoint.angles - initial.angles).max_abs() <= angle && (setpoint.rates - initial.rates).max_abs() <= rate
-}
-
-/// Whether a setpoint does no more than keep the joints where they are, as after a fault.
-fn only_holds(setpoint: &Setpoint) -> bool {
-    setpoint.rates == JointVector::ZERO && setpoint.feed_forward == JointVector::ZERO
 }
 
 #[cfg(test)]

@@ -4,9 +4,9 @@ use std::io::Write;
 use std::path::Path;
 use std::time::Duration;
 
-use interface::Fault;
+use interface::{Fault, Rate};
 use record::{Metadata, Provenance, RecordError, RecordingWriter, RunEvent};
-use runtime::{Journal, JournalEnd, Rate};
+use runtime::{Journal, JournalEnd};
 use wire::ReportPublisher;
 
 use crate::announcements::{Announced, Announcements};

@@ -1,6 +1,6 @@
 //! One control period of the simulated robot.
 
-use dynamics::{ArticulatedBody, Tree};
+use dynamics::{ArticulatedBody, Tree, atan2};
 use interface::{Measurement, SensorGroups, Setpoint};
 use model::{GRAVITY, Joint, JointVector, Mechanism, Motion, Side, Sole, Wrench};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -195,8 +195,8 @@ impl Plant {
         let sole = kinematics.sole_to_world(&self.mechanism, support);
         let up = sole.rotation.inverse() * self.floor.normal(sole.translation.vector.xy());
         let mut angles = self.robot.angles;
-        angles[Joint::FootRoll] = up.y.atan2(up.z);
-        angles[Joint::FootPitch] = (-up.x).atan2(up.z);
+        angles[Joint::FootRoll] = atan2(up.y, up.z);
+        angles[Joint::FootPitch] = atan2(-up.x, up.z);
 
         let trunk_to_world = kinematics.link_to_world(Mechanism::TRUNK).rotation;
         let (angular_rate, trunk_velocity) = self.robot.link_velocity(

@@ -8,16 +8,15 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::Duration;
 
+use dialogue::line_queue::{LineQueue, ReadLine};
+use dialogue::reply_text::reply_text;
+use dialogue::script::{Reader, TimedRequest};
 use interface::{Intent, Reply, Request, Source};
 use operator::command_stream::SentRequest;
-use operator::line_queue::{LineQueue, ReadLine};
-use operator::reply_text::reply_text;
-use operator::script::{Reader, TimedRequest};
 use operator::{CommandStream, OperatorError};
+use scene::ToPage;
 use tokio::sync::broadcast;
 use wire::{Instance, UrgentClient};
-
-use crate::message::ToPage;
 
 /// Time between two looks for a reply.
 const POLL_INTERVAL: Duration = Duration::from_millis(5);

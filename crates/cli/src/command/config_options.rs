@@ -4,10 +4,11 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use node::configuration::{ConfigFiles, REALTIME};
+use robots::BuiltInRobot;
 
 use super::options::path_option;
-use crate::built_in_robots::BuiltInRobot;
 use crate::error::CliError;
+use crate::robot_folder::folder_of;
 
 /// Where the configuration lies.
 #[derive(Clone, Debug, clap::Args)]
@@ -42,7 +43,7 @@ impl ConfigOptions {
                 None => Some(BuiltInRobot::of_the_paper()),
                 robot => robot,
             };
-            self.config = Some(in_box.map_or_else(|| Ok(PathBuf::from(DEFAULT)), |robot| robot.folder())?);
+            self.config = Some(in_box.map_or_else(|| Ok(PathBuf::from(DEFAULT)), |robot| folder_of(&robot))?);
         }
         Ok(())
     }

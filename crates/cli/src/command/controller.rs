@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use controller::Driver;
-use interface::Mode;
+use interface::{Mode, Rate};
 use node::admission_worker::ClockedWorker;
 use node::announcements::Announced;
 use node::configuration::{self, CONTROLLER, ConfigFiles, Errors};
@@ -16,7 +16,6 @@ use node::summary::{ControllerSummary, FaultSummary};
 use node::tell::tell;
 use node::{realtime, recorder};
 use record::{Metadata, Provenance};
-use runtime::Rate;
 use wire::ControllerPorts;
 
 use super::config_options::ConfigOptions;
@@ -103,6 +102,7 @@ impl ControllerArgs {
             requests,
             deadline_misses: run.missed,
             timing: (clock == Clock::Realtime).then_some(run.timing),
+            setpoint_hash: (clock == Clock::Lockstep).then(|| run.setpoints.to_string()),
             log_gaps: recorded.lost,
             record_error: recorded.error.map(|error| error.to_string()),
         };

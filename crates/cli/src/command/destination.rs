@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+use dialogue::place_json::read_footsteps;
 use interface::{Destination, GaitChange, PlaceFrame, PlaceList, Places, Request, Source, Waypoint};
-use operator::place_json::read_footsteps;
 
 use super::options::number;
 use crate::error::CliError;

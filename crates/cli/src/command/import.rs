@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use interchange::import::{JointRole, NamedText, print_map};
 use model::Side;
+use robots::{ImportedRobot, URDF};
 use serde::Serialize;
 
 use crate::error::CliError;
-use crate::imported_robot::{ImportedRobot, URDF};
 use crate::output::{print_json, print_line, quoted, write_files};
 use crate::status::Status;
 

@@ -5,10 +5,9 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
-use interface::COMMAND_TIMEOUT_MAX;
+use interface::{COMMAND_TIMEOUT_MAX, Rate};
 use node::announcements::Announced;
 use node::cycle::Clock;
-use runtime::Rate;
 use wire::{Instance, InstanceName};
 
 use crate::error::CliError;

@@ -1,9 +1,9 @@
 //! `halfstep plant`: the process that is the robot.
 
-use interface::Setpoint;
+use interface::{Rate, Setpoint};
 use std::path::{Path, PathBuf};
 
-use gait::{Robot, Start, Walk};
+use gait::Robot;
 use model::{Mechanism, Motion};
 use node::announcements::Announced;
 use node::configuration::{ConfigFiles, Errors, PLANT, URDF};
@@ -17,7 +17,6 @@ use node::tell::tell;
 use node::{realtime, recorder};
 use pattern::PatternGenerator;
 use record::{Metadata, Provenance};
-use runtime::Rate;
 use wire::PlantPorts;
 
 use super::config_options::ConfigOptions;
@@ -183,9 +182,6 @@ impl PlantArgs {
     fn stand(&self, robot: &Robot, files: &ConfigFiles) -> Result<Motion, CliError> {
         let mut errors = Errors::default();
         let loaded = files.controller(&mut errors);
-        let gait = errors.finish(loaded)?.gait;
-        let walk = Walk::new(robot.nominal.clone(), &robot.mechanism, &gait, Start::default());
-        let preview = PatternGenerator::standing(&robot.mechanism, walk.map_err(CliError::bad_input)?);
-        Ok(preview.physical_motion())
+        PatternGenerator::standing_motion(robot, &errors.finish(loaded)?.gait).map_err(CliError::bad_input)
     }
 }

@@ -7,7 +7,7 @@ use interface::{GaitChange, Intent, Lifetime, Request, Source, Verdict, WalkVelo
 use std::time::Duration;
 
 use clap::Subcommand;
-use operator::reply_text::{ReplyJson, reply_text};
+use dialogue::reply_text::{ReplyJson, reply_text};
 use runtime::now_ns;
 use wire::{Instance, OperatorPorts, ReplyMessage, UrgentClient};
 

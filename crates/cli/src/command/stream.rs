@@ -5,14 +5,14 @@ use std::io::{self, BufReader, Read};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, TryRecvError};
 use std::time::Duration;
 
+use dialogue::line_queue::{CAPACITY, LineQueue, ReadLine, Superseded};
+use dialogue::lines::{BadLine, InputLines};
+use dialogue::reply_text::{ReplyJson, reply_text};
+use dialogue::script::{Reader, ScriptError};
 use interface::{Intent, Request, Source, Verdict};
 use node::interrupt::Interrupt;
 use node::tell::tell;
 use operator::command_stream::{CommandStream, SentRequest};
-use operator::line_queue::{CAPACITY, LineQueue, ReadLine, Superseded};
-use operator::lines::{BadLine, InputLines};
-use operator::reply_text::{ReplyJson, reply_text};
-use operator::script::{Reader, ScriptError};
 use runtime::now_ns;
 use serde::Serialize;
 

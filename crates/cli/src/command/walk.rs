@@ -1,25 +1,24 @@
 //! `halfstep walk`: both processes, a script of commands, and pictures at the end.
 
-use interface::{Intent, Reason, Request, Source, Verdict};
+use interface::{Intent, Rate, Reason, Request, Source, Verdict};
 use std::ffi::OsString;
 use std::fs;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use dialogue::reply_text::reply_text;
+use dialogue::script::{Reader, ScriptError, TimedRequest};
 use gait::Robot;
 use node::configuration::Errors;
 use node::engine;
 use node::interrupt::Interrupt;
 use node::summary::{ControllerSummary, PlantSummary};
 use node::tell::tell;
-use operator::reply_text::reply_text;
-use operator::script::{Reader, ScriptError, TimedRequest};
 use operator::script_runner::ScriptRunner;
 use plots::picture;
 use plots::run_log::RunLog;
 use record::{RUN_FILE, files_of, merge, set_folder_aside};
-use runtime::Rate;
 use wire::{ConnectError, Instance, InstanceName, Leftovers, ObserverPorts, OperatorPorts};
 
 use super::config_options::ConfigOptions;
@@ -260,6 +259,7 @@ impl WalkArgs {
             clock: self.runs.clock().text(),
             deadline_misses: controller.deadline_misses + plant.deadline_misses,
             timing: controller.timing,
+            setpoint_hash: controller.setpoint_hash.clone(),
             log_gaps: controller.log_gaps + plant.log_gaps,
             problems,
             real_time_factor: if plant.wall_s > 0.0 { duration_s / plant.wall_s } else { 0.0 },

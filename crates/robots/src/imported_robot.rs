@@ -1,12 +1,11 @@
 //! A complete configuration folder for a robot that comes as a URDF.
 
-use config::Config;
-use interchange::import::{Imported, NamedText, import};
+use config::{Config, ConfigErrors};
+use gait::TableFileError;
+use interchange::import::{ImportError, Imported, NamedText, import};
 use interchange::scaled_parameters::{controller_text, plant_text};
 use model::Mechanism;
-use synthesis::{FittedHalfStep, fit_half_step};
-
-use crate::error::CliError;
+use synthesis::{FittedHalfStep, SynthesisError, fit_half_step};
 
 /// Parameters of the paper's robot, from which those of others are scaled.
 const CONTROLLER: &str = include_str!("../../../config/controller.toml");
@@ -14,6 +13,23 @@ const PLANT: &str = include_str!("../../../config/plant.toml");
 const REALTIME: &str = include_str!("../../../config/realtime.toml");
 /// The URDF's name in the folder.
 pub const URDF: &str = "robot.urdf";
+
+/// Why a robot cannot walk by its URDF.
+#[derive(Debug, thiserror::Error)]
+pub enum ImportedRobotError {
+    /// URDF or map are wrong, or what they describe cannot walk.
+    #[error(transparent)]
+    Import(#[from] ImportError),
+    /// What was imported is no mechanism.
+    #[error(transparent)]
+    Mechanism(#[from] ConfigErrors),
+    /// No half-step suits its joints.
+    #[error(transparent)]
+    HalfStep(#[from] SynthesisError),
+    /// Its half-step cannot be written down.
+    #[error(transparent)]
+    Table(#[from] TableFileError),
+}
 
 /// A robot that was imported, with everything that it needs to walk.
 #[derive(Clone, Debug)]
@@ -31,12 +47,12 @@ impl ImportedRobot {
     ///
     /// # Errors
     /// Everything that is wrong with URDF or map, or that no half-step suits the robot's joints.
-    pub fn new(urdf: NamedText, map: Option<NamedText>) -> Result<Self, CliError> {
+    pub fn new(urdf: NamedText, map: Option<NamedText>) -> Result<Self, ImportedRobotError> {
         let imported = import(urdf, map)?;
         let name = format!("the mechanism read from {}", urdf.file);
-        let mechanism = Mechanism::from_toml(&imported.text, &name).map_err(CliError::bad_input)?;
-        let half_step = fit_half_step(&mechanism).map_err(CliError::bad_input)?;
-        let nominal = half_step.synthesis.table.to_csv().map_err(CliError::bad_input)?;
+        let mechanism = Mechanism::from_toml(&imported.text, &name)?;
+        let half_step = fit_half_step(&mechanism)?;
+        let nominal = half_step.synthesis.table.to_csv()?;
         let files = [
             ("mechanism.toml", with_copied_urdf(&imported.text)),
             ("nominal_half_step.csv", nominal),

@@ -1,17 +1,12 @@
 //! The robots in the box: configuration folders that the program carries, so that it works from any folder.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-
-use crate::error::CliError;
-
 /// A robot that the program carries.
 #[derive(Clone, Copy, Debug)]
 pub struct BuiltInRobot {
     /// Its name on the command line.
     pub name: &'static str,
     /// Names and texts of its configuration files.
-    files: [(&'static str, &'static str); 5],
+    pub files: [(&'static str, &'static str); 5],
 }
 
 /// The five files of a folder, relative to this one.
@@ -65,37 +60,11 @@ impl BuiltInRobot {
     pub fn mechanism_text(&self) -> &'static str {
         self.files[0].1
     }
-
-    /// Its configuration folder, in the user's cache; written if it is not there as it should be.
-    ///
-    /// # Errors
-    /// The cache cannot be written, or neither HOME nor XDG_CACHE_HOME is set.
-    pub fn folder(&self) -> Result<PathBuf, CliError> {
-        let cache = node::engine::cache().map_err(CliError::new)?;
-        let folder = cache.join(format!("robots-{}", env!("CARGO_PKG_VERSION"))).join(self.name);
-        for (name, text) in self.files {
-            let file = folder.join(name);
-            if fs::read(&file).is_ok_and(|written| written == text.as_bytes()) {
-                continue;
-            }
-            write_at_once(&file, text).map_err(CliError::file(&file))?;
-        }
-        Ok(folder)
-    }
-}
-
-/// Writes a file that another process may be reading: it sees the former text or all of the new one.
-fn write_at_once(file: &Path, text: &str) -> std::io::Result<()> {
-    if let Some(folder) = file.parent() {
-        fs::create_dir_all(folder)?;
-    }
-    let unfinished = file.with_extension(format!("{}.unfinished", std::process::id()));
-    fs::write(&unfinished, text)?;
-    fs::rename(&unfinished, file)
 }
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
     use std::sync::Arc;
 
     use config::Config;

@@ -19,8 +19,7 @@
 use std::io::BufRead;
 use std::time::Duration;
 
-use interface::{Destination, GaitChange, Intent, PlaceFrame, Places, Request, Source, WalkVelocity};
-use runtime::Rate;
+use interface::{Destination, GaitChange, Intent, PlaceFrame, Places, Rate, Request, Source, WalkVelocity};
 use serde::{Deserialize, Deserializer};
 
 use crate::lines::{BadLine, InputLines};
