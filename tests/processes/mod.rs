@@ -10,6 +10,7 @@ mod a_halted_lockstep_run_goes_on;
 mod a_kill_at_any_instant_leaves_nothing;
 mod a_killed_run_can_be_read;
 mod a_page_looks_on_and_one_page_drives;
+mod a_page_walks_to_the_bits_of_two_processes;
 mod a_push_by_hand_is_one_of_a_script;
 mod a_recording_holds_the_run;
 mod a_recording_is_never_overwritten;

@@ -19,6 +19,7 @@ pub const BASE: &str = "interface model signal config";
 pub const ARROWS: Table<'_> = &[
     ("cli", "ALL"),
     ("bench", "ALL"),
+    ("web", "BASE controller plant pattern gait robots interchange scene dialogue"),
     ("view", "BASE operator record wire runtime scene dialogue"),
     ("node", "BASE controller plant wire runtime record interchange gait dynamics"),
     ("operator", "BASE wire runtime dialogue"),
