@@ -13,7 +13,7 @@ use halfstep_tests::mechanism;
 use halfstep_tests::walking::{controller_parameters, nominal, plant_parameters};
 use interface::{GaitChange, Request, Setpoint, Source};
 use node::admission_worker::ClockedWorker;
-use node::announcements::Announced;
+use node::announcements::{Announced, Announcements};
 use node::controller_loop::run_controller;
 use node::cycle::{Clock, CycleTiming, Cycles};
 use node::interrupt::Interrupt;
@@ -66,8 +66,9 @@ fn walk(ticks: u64) -> [Happened; 2] {
             let controller = Controller::new(mechanism, table, &parameters, Start::default()).unwrap();
             let worker = ClockedWorker::new(timing.clock, Scheduling::default()).unwrap();
             let mut driver = Driver { controller, worker };
+            let announcements = Announcements::new(Announced::Faults, "allocates", |_, _| String::new());
             let (mut recorder, recorder_thread) =
-                recorder::of_controller(timing.clock, timing.rate, None, reports, Announced::Faults).unwrap();
+                recorder::of_controller(timing.clock, timing.rate, None, reports, announcements).unwrap();
             let mut cycles = Cycles::new(timing, measurements, "plant", Some(ticks), Interrupt::default());
             let mut queue =
                 RequestQueue::new(RequestBridge::new(requests, timing.clock, CAPACITY, Scheduling::default()).unwrap());

@@ -20,6 +20,7 @@ pub const ARROWS: Table<'_> = &[
     ("cli", "ALL"),
     ("bench", "ALL"),
     ("view", "BASE operator record wire runtime dynamics"),
+    ("teleop", "BASE operator wire runtime"),
     ("node", "BASE controller plant wire runtime record interchange gait dynamics"),
     ("operator", "BASE wire runtime"),
     ("paper", "BASE plots gait dynamics"),

@@ -22,6 +22,7 @@ pub const CLOCK: Restriction<'_> = Restriction {
     allowed: &[
         ("crates/bench/src/", "measures it"),
         ("crates/cli/src/command/send.rs", "when a request expires"),
+        ("crates/cli/src/command/status.rs", "how old a report is"),
         ("crates/cli/src/command/stream.rs", "how long a line waits"),
         ("crates/cli/src/process.rs", "how long a child process takes"),
         ("crates/node/src/controller_loop.rs", "how long a period takes"),
@@ -29,6 +30,7 @@ pub const CLOCK: Restriction<'_> = Restriction {
         ("crates/node/src/plant_loop.rs", "how long a period takes"),
         ("crates/operator/src/command_stream.rs", "when a request expires"),
         ("crates/runtime/src/", "deadlines"),
+        ("crates/teleop/src/session.rs", "how long a key is held"),
         ("crates/view/src/live_feed.rs", "when a frame is due"),
         ("crates/wire/src/push.rs", "time-out of a reply"),
         ("crates/wire/src/connect_lock.rs", "time-out of connecting"),

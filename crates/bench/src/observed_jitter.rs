@@ -45,6 +45,7 @@ pub fn observed_jitter(
     command: impl Fn(Option<&Path>) -> std::io::Result<Command>,
     mechanism: &Mechanism,
     new_plant: impl Fn() -> Plant,
+    after_segment: impl Fn(),
 ) -> Result<(Vec<Series>, Vec<Ratio>), BenchError> {
     let failed = |error| BenchError::new("a folder to record into", error);
     let folder = tempfile::tempdir().map_err(failed)?;
@@ -68,6 +69,7 @@ pub fn observed_jitter(
                 series.add(spread.p99_us * 1e3);
             }
         }
+        after_segment();
     }
     let [alone, observed] = both;
     let ratio = |(ours, theirs): (&Series, &Series)| Ratio {

@@ -4,6 +4,7 @@ use config::Config;
 use interchange::import::{Imported, NamedText, import};
 use interchange::scaled_parameters::{controller_text, plant_text};
 use model::Mechanism;
+use node::tell::tell;
 use synthesis::{FittedHalfStep, fit_half_step};
 
 use crate::error::CliError;
@@ -35,6 +36,7 @@ impl ImportedRobot {
         let imported = import(urdf, map)?;
         let name = format!("the mechanism read from {}", urdf.file);
         let mechanism = Mechanism::from_toml(&imported.text, &name).map_err(CliError::bad_input)?;
+        tell(format_args!("import: looks for a half-step that suits {}", imported.name));
         let half_step = fit_half_step(&mechanism).map_err(CliError::bad_input)?;
         let nominal = half_step.synthesis.table.to_csv().map_err(CliError::bad_input)?;
         let files = [

@@ -20,6 +20,8 @@ const TRUTH_INTERVAL: Duration = Duration::from_millis(5);
 /// Largest differences of a setpoint from the initial posture (rad) and its rates (rad/s) with which the robot is let
 /// go.
 const RELEASE_TOLERANCE: [f64; 2] = [0.05, 0.3];
+/// After how long without a new setpoint the controller counts as silent.
+const SILENT_AFTER: Duration = Duration::from_millis(500);
 /// How long the run goes on after the robot has fallen, if the run ends with a fall.
 const AFTER_FALL: Duration = Duration::from_millis(500);
 
@@ -47,11 +49,16 @@ pub struct PlantRun {
 struct Intervals {
     truth_ticks: u64,
     after_fall_ticks: u64,
+    silent_ticks: u64,
 }
 
 impl Intervals {
     fn at(rate: Rate) -> Self {
-        Self { truth_ticks: rate.ticks(TRUTH_INTERVAL).max(1), after_fall_ticks: rate.ticks(AFTER_FALL) }
+        Self {
+            truth_ticks: rate.ticks(TRUTH_INTERVAL).max(1),
+            after_fall_ticks: rate.ticks(AFTER_FALL),
+            silent_ticks: rate.ticks(SILENT_AFTER).max(1),
+        }
     }
 }
 
@@ -76,8 +83,8 @@ pub fn run_plant(
     let mut setpoint = initial;
     let mut is_held = true;
     let (mut began_ns, mut last_tick) = (None, None);
-    let Intervals { truth_ticks, after_fall_ticks } = Intervals::at(cycles.rate());
-    let mut next_truth = truth_ticks;
+    let Intervals { truth_ticks, after_fall_ticks, silent_ticks } = Intervals::at(cycles.rate());
+    let (mut next_truth, mut silence, mut is_silent) = (truth_ticks, 0, false);
     plant.disturbances.make_room();
     recorder.push(PlantEvent::Tick(PlantEntry { tick: 0, angles: plant.robot.angles, truth: plant.truth() }));
     measurements.write(&MeasurementMessage::new(0, now_ns(), &plant.measure()));
@@ -98,7 +105,14 @@ pub fn run_plant(
 
         // A setpoint has the tick of the measurement that it answers.
         if let Some(last) = last_tick.replace(cycle.message.tick) {
-            run.setpoints_repeated += u64::from(cycle.message.tick == last);
+            let is_repeated = cycle.message.tick == last;
+            silence = if is_repeated { silence + cycle.periods } else { 0 };
+            if is_silent != (silence >= silent_ticks) {
+                is_silent = !is_silent;
+                let event = if is_silent { PlantEvent::ControllerSilent } else { PlantEvent::ControllerBack };
+                recorder.push(event(cycle.tick));
+            }
+            run.setpoints_repeated += u64::from(is_repeated);
             run.setpoints_lost += cycle.message.tick.saturating_sub(last).saturating_sub(cycle.periods);
         }
         // An invalid setpoint is not obeyed: the drives keep the last one.
@@ -156,6 +170,7 @@ mod tests {
         for (hz, truth_ticks, after_fall_ticks) in [(250, 1, 125), (1000, 5, 500), (4000, 20, 2000)] {
             let intervals = Intervals::at(Rate::new(hz).expect("a rate that loops can keep"));
             assert_eq!([intervals.truth_ticks, intervals.after_fall_ticks], [truth_ticks, after_fall_ticks], "{hz} Hz");
+            assert_eq!(intervals.silent_ticks, after_fall_ticks, "{hz} Hz: both half a second");
         }
     }
 }

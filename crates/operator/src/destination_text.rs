@@ -2,8 +2,8 @@
 
 use interface::{Destination, PlaceFrame, Places, Reply, Request, Waypoint};
 
-/// A destination, and when the robot will stand there.
-pub(crate) fn destination_text(destination: &Destination, request: &Request, reply: &Reply) -> String {
+/// A destination: the goal or the number of footsteps, and in which frame.
+pub(crate) fn places_text(destination: &Destination) -> String {
     let way = match &destination.places {
         Places::Waypoints(waypoints) => {
             let (Waypoint { x, y, heading }, before) = (waypoints[waypoints.len() - 1], waypoints.len() - 1);
@@ -19,11 +19,16 @@ pub(crate) fn destination_text(destination: &Destination, request: &Request, rep
         PlaceFrame::Walk => "",
         PlaceFrame::Robot => ", seen from the robot",
     };
+    way + frame
+}
+
+/// A destination, and when the robot will stand there.
+pub(crate) fn destination_text(destination: &Destination, request: &Request, reply: &Reply) -> String {
     let arrival = reply.arrival.map_or(String::new(), |arrival| format!(", there in {arrival:.1} s"));
     // A speed that was not asked for is told where it is not the usual one.
     let asks_speed = request.gait.speed.is_some();
     let speed = if asks_speed || reply.granted.speed == 1.0 { String::new() } else { speed_text(reply.granted.speed) };
-    way + frame + &speed + &arrival
+    places_text(destination) + &speed + &arrival
 }
 
 fn speed_text(speed: f64) -> String {

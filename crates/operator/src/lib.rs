@@ -1,6 +1,7 @@
 //! Client library: commands a controller that runs in another process.
 //!
 //! * [`command_stream`]: a stream of commands with a heartbeat, as from a joystick or a program.
+//! * [`hand_drive`]: what a person asks for with keys, sticks or sliders.
 //! * [`lines`] are read from any input, and those of a stream wait in a [`line_queue`] until they are sent.
 //! * [`script`] and [`script_runner`]: requests with their times, read from JSON lines and sent ahead of time.
 //! * [`place_json`]: way-points and footsteps as JSON.
@@ -9,6 +10,7 @@
 pub mod command_stream;
 mod destination_text;
 pub mod error;
+pub mod hand_drive;
 mod limit_unit;
 pub mod line_queue;
 pub mod lines;

@@ -1,9 +1,9 @@
 //! Replies as text for users, and as JSON.
 
-use interface::{ActiveLimit, ControlAuthority, Reason, Reply, Request, SteadyWalk, Verdict};
+use interface::{ActiveLimit, ControlAuthority, Reason, Reply, Request, SteadyWalk, Verdict, WalkVelocity};
 use serde::Serialize;
 
-use crate::destination_text::{destination_text, metres, place_text};
+use crate::destination_text::{destination_text, metres, place_text, places_text};
 use crate::limit_unit::LimitUnit;
 
 /// A reply as JSON; angles in degrees.
@@ -130,6 +130,25 @@ pub fn reply_text(request: &Request, reply: &Reply) -> String {
     }
 }
 
+/// What is requested, in words: `turn 15°, speed 1.2`.
+pub fn request_text(request: &Request) -> String {
+    let angle = |name: &str, angle: Option<f64>| angle.map(|angle| format!("{name} {}°", rounded(angle.to_degrees())));
+    let velocity = |WalkVelocity { ahead, left, turn }: WalkVelocity| {
+        let [ahead, left, turn] = [ahead, left, turn.to_degrees()].map(|number| (number * 1e3).round() / 1e3 + 0.0);
+        format!("vx {ahead} m/s, vy {left} m/s, wz {turn} °/s")
+    };
+    let parts = [
+        angle("turn", request.gait.turn),
+        request.gait.speed.map(|speed| format!("speed {}", rounded(speed))),
+        angle("extension", request.gait.extension),
+        angle("sidestep", request.gait.sidestep),
+        request.velocity.map(velocity),
+        request.destination.map(|destination| places_text(&destination)),
+        request.intent.map(|intent| intent.text().to_owned()),
+    ];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
 /// Why a request was not granted as requested, with its place and with numbers where there are any.
 fn objection_text(request: &Request, reply: &Reply) -> String {
     place_text(request, reply) + &problem_text(request, reply)
@@ -203,7 +222,9 @@ fn rounded(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use expect_test::expect_file;
-    use interface::{Command, Fault, GaitChange, Intent, LatchedFault, Source, WalkVelocity};
+    use interface::{
+        Command, Destination, Fault, GaitChange, Intent, LatchedFault, PlaceFrame, PlaceList, Places, Source, Waypoint,
+    };
     use model::Joint;
 
     use super::*;
@@ -341,6 +362,21 @@ mod tests {
             reply_text(&request, &reply(Verdict::Refused, Reason::CannotRestart)),
             "refused: the uncompensated gait cannot restart from a stand: restart the controller"
         );
+    }
+
+    #[test]
+    fn what_was_requested_is_told_as_it_is_typed() {
+        let gait = GaitChange { turn: Some(15_f64.to_radians()), speed: Some(1.2), ..GaitChange::NONE };
+        let walk = Request { gait, intent: Some(Intent::Walk), ..Request::new(Source::Script) };
+        assert_eq!(request_text(&walk), "turn 15°, speed 1.2, walk");
+        let velocity = Some(WalkVelocity { ahead: 0.3, left: -0.1, turn: 15_f64.to_radians() });
+        let walks_at = Request { velocity, ..Request::new(Source::Script) };
+        assert_eq!(request_text(&walks_at), "vx 0.3 m/s, vy -0.1 m/s, wz 15 °/s");
+        let goal = Waypoint { x: 3.0, y: 2.0, heading: None };
+        let places = PlaceList::new(&[goal]).map(Places::Waypoints).expect("a place");
+        let destination = Some(Destination { frame: PlaceFrame::Walk, places });
+        let goes = Request { destination, ..Request::new(Source::Script) };
+        assert_eq!(request_text(&goes), "goal x 3.000 m, y 2.000 m");
     }
 
     #[test]

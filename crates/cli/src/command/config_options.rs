@@ -12,8 +12,8 @@ use crate::error::CliError;
 /// Where the configuration lies.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct ConfigOptions {
-    /// Folder with mechanism.toml, nominal_half_step.csv, controller.toml, plant.toml and realtime.toml [default:
-    /// config where there is such a folder, else the paper's robot]
+    /// Folder with mechanism.toml, nominal_half_step.csv, controller.toml, plant.toml and, if need be, realtime.toml
+    /// [default: config where there is such a folder, else the paper's robot]
     #[arg(long, value_name = "DIR", conflicts_with = "robot")]
     config: Option<PathBuf>,
     /// A robot in the box instead of a folder: see `halfstep robots`

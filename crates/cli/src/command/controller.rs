@@ -5,7 +5,7 @@ use std::path::Path;
 use controller::Driver;
 use interface::Mode;
 use node::admission_worker::ClockedWorker;
-use node::announcements::Announced;
+use node::announcements::{Announced, Announcements};
 use node::configuration::{self, CONTROLLER, ConfigFiles, Errors};
 use node::controller_loop::run_controller;
 use node::cycle::{Clock, Cycles};
@@ -15,6 +15,7 @@ use node::request_queue::{CAPACITY, RequestQueue};
 use node::summary::{ControllerSummary, FaultSummary};
 use node::tell::tell;
 use node::{realtime, recorder};
+use operator::reply_text::reply_text;
 use record::{Metadata, Provenance};
 use runtime::Rate;
 use wire::ControllerPorts;
@@ -73,7 +74,7 @@ impl ControllerArgs {
             rate,
             self.recorded(&files, rate, fingerprint)?,
             reports,
-            self.child.announced(),
+            Announcements::new(self.child.announced(), self.instance.instance.as_str(), reply_text),
         )?;
 
         self.child.bind_run()?;

@@ -12,7 +12,8 @@ use record::provenance_of;
 use serde::Serialize;
 
 use crate::error::CliError;
-use crate::output::{print, write_files};
+use crate::output::print;
+use crate::output_folder::OutputFolder;
 use crate::status::Status;
 
 /// Draw the plots of a recorded run
@@ -27,6 +28,9 @@ pub(super) struct PlotArgs {
     /// Also write plant.csv and controller.csv
     #[arg(long)]
     csv: bool,
+    /// Replace other pictures and tables in the folder
+    #[arg(long)]
+    force: bool,
 }
 
 /// Names of the written files.
@@ -38,11 +42,14 @@ struct PlotFiles {
 
 impl PlotArgs {
     pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
+        let own = if self.run.is_dir() { Some(self.run.as_path()) } else { self.run.parent() };
+        let folder = self.out.clone().or_else(|| own.map(Path::to_owned)).unwrap_or_default();
         let origin = provenance_of(&self.run)?;
         let run = self.run.display();
         let text =
             origin.file(MECHANISM).ok_or_else(|| CliError::bad_input(format!("{run}: has no {MECHANISM} attached")))?;
         let mechanism = Mechanism::from_toml(text, &format!("{run}: {MECHANISM}")).map_err(CliError::bad_input)?;
+        let out = OutputFolder::open(&folder, self.force)?;
         let log = RunLog::read(&self.run)?;
         if log.plant.is_empty() && log.controller.is_empty() {
             let notes = log.notes.join("; ");
@@ -50,14 +57,11 @@ impl PlotArgs {
         }
         log.notes.iter().for_each(tell);
 
-        let own = if self.run.is_dir() { Some(self.run.as_path()) } else { self.run.parent() };
-        let folder = self.out.clone().or_else(|| own.map(Path::to_owned)).unwrap_or_default();
         let pictures = picture::of_run(&log, &mechanism);
-        write_files(&folder, &pictures)?;
+        out.write(&pictures)?;
         let mut written: Vec<String> = pictures.iter().map(|(name, _)| (*name).to_owned()).collect();
         if self.csv {
-            let rows = write_csv(&self.run, &folder)?;
-            written.extend(rows.iter().filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned())));
+            written.extend(out.write_with(|folder| Ok(write_csv(&self.run, folder)?.to_vec()))?);
         }
         print(json, &PlotFiles { folder, files: written })?;
         Ok(Status::Success)

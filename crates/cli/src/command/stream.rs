@@ -19,6 +19,7 @@ use serde::Serialize;
 use super::connect::patiently;
 use super::options::{InstanceOption, command_timeout};
 use crate::error::CliError;
+use crate::messages::complain;
 use crate::output::{print_json, print_line};
 use crate::status::Status;
 
@@ -164,7 +165,7 @@ impl Streaming {
 
     /// Sends lines and prints replies until all lines are answered, or this process is asked to end.
     fn work_off(&mut self, lines: &Receiver<ReadResult>, interrupt: &Interrupt, name: &str) -> Result<(), CliError> {
-        let cannot_read = |error| CliError::new(format!("{name}: {error}"));
+        let cannot_read = |error| CliError::bad_input(format!("{name}: {error}"));
         let mut is_at_end = false;
         let mut polls = 0_u32;
         while !interrupt.is_raised() {
@@ -286,7 +287,7 @@ impl Streaming {
         if self.json {
             self.note_printed(print_json(&LineError { line: error.line, error: error.to_string() }));
         } else {
-            tell(error);
+            complain(error);
         }
     }
 

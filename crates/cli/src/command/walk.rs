@@ -13,7 +13,7 @@ use node::engine;
 use node::interrupt::Interrupt;
 use node::summary::{ControllerSummary, PlantSummary};
 use node::tell::tell;
-use operator::reply_text::reply_text;
+use operator::reply_text::{reply_text, request_text};
 use operator::script::{Reader, ScriptError, TimedRequest};
 use operator::script_runner::ScriptRunner;
 use plots::picture;
@@ -26,7 +26,8 @@ use super::config_options::ConfigOptions;
 use super::engine::Engine;
 use super::options::{LoopOptions, path_option};
 use crate::error::CliError;
-use crate::output::{print, write_files};
+use crate::output::print;
+use crate::output_folder::OutputFolder;
 use crate::process::Process;
 use crate::progress::Progress;
 use crate::status::Status;
@@ -268,7 +269,7 @@ impl WalkArgs {
         let mut files = vec![("summary.json", text + "\n")];
         files.extend(picture::of_run(&log, &robot.mechanism));
         // Without room for them the summary is printed at least.
-        if let Err(error) = write_files(folder, &files) {
+        if let Err(error) = OutputFolder::open(folder, true).and_then(|out| out.write(&files)) {
             summary.problems.push(error.to_string());
         }
         Ok(summary)
@@ -330,8 +331,8 @@ impl Walking {
         while let Some((request, reply)) = self.script.next_reply() {
             // At its end the controller refuses what still waits for its tick.
             if reply.verdict != Verdict::Accepted && reply.reason != Reason::ShuttingDown {
-                let time = rate.time(request.not_before);
-                progress.print(&format!("at {time:.2} s: {}", reply_text(&request, &reply)));
+                let (time, asked) = (rate.time(request.not_before), request_text(&request));
+                progress.print(&format!("at {time:.2} s, {asked}: {}", reply_text(&request, &reply)));
             }
         }
     }
