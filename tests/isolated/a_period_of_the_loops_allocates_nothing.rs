@@ -17,7 +17,8 @@ use node::announcements::Announced;
 use node::controller_loop::run_controller;
 use node::cycle::{Clock, CycleTiming, Cycles};
 use node::interrupt::Interrupt;
-use node::plant_loop::run_plant;
+use node::physics::OwnPhysics;
+use node::plant_loop::{AfterFall, run_plant};
 use node::push_bridge::PushBridge;
 use node::recorder;
 use node::request_bridge::RequestBridge;
@@ -87,10 +88,11 @@ fn walk(ticks: u64) -> [Happened; 2] {
             let (mut recorder, recorder_thread) =
                 recorder::of_plant(timing.clock, timing.rate, None, Announced::Faults).unwrap();
             let mut cycles = Cycles::new(timing, setpoints, "controller", Some(ticks), Interrupt::default());
-            let step = |plant: &mut Plant, setpoint: &Setpoint| Ok(plant.step(setpoint));
             let happened = watch(|| {
-                let run =
-                    run_plant(&mut plant, step, &mut cycles, &mut measurements, &mut pushes, &mut recorder, false);
+                let (measurements, pushes, recorder) = (&mut measurements, &mut pushes, &mut recorder);
+                let after_fall = &AfterFall::Stay;
+                let physics = &mut OwnPhysics;
+                let run = run_plant(&mut plant, physics, &mut cycles, measurements, pushes, recorder, after_fall);
                 run.unwrap().ticks
             });
             drop(recorder);

@@ -2,7 +2,9 @@
 //! its own instance; nearly all walk in lockstep, so that a busy machine only makes them slower.
 
 mod a_bad_line_spoils_itself_only;
+mod a_configuration_is_examined;
 mod a_disturbance_script_is_played;
+mod a_fallen_robot_is_lifted_and_walks_again;
 mod a_fault_that_stops_a_walk_is_named;
 mod a_full_disk_is_told_at_once;
 mod a_full_shared_memory_is_told_and_stops_no_stop;

@@ -20,6 +20,7 @@ pub const ARROWS: Table<'_> = &[
     ("cli", "ALL"),
     ("bench", "ALL"),
     ("view", "BASE operator record wire runtime dynamics"),
+    ("doctor", "BASE controller plant interchange pattern gait dynamics"),
     ("node", "BASE controller plant wire runtime record interchange gait dynamics"),
     ("operator", "BASE wire runtime"),
     ("paper", "BASE plots gait dynamics"),

@@ -78,6 +78,7 @@ pub const THREADS: Restriction<'_> = Restriction {
     allowed: &[
         ("crates/bench/src/", "load, and partners to measure with"),
         ("crates/cli/src/command/bench.rs", "measures on a thread with a large stack"),
+        ("crates/cli/src/command/doctor.rs", "asks for real-time scheduling on a thread that ends at once"),
         ("crates/cli/src/command/stream.rs", "reads lines while replies arrive"),
         ("crates/node/src/admission_worker.rs", "evaluates requests beside the loop"),
         ("crates/node/src/engine/external_engine.rs", "reads what the engine writes"),

@@ -66,6 +66,11 @@ impl BuiltInRobot {
         self.files[0].1
     }
 
+    /// The texts of its files for controller and plant.
+    pub(crate) fn parameter_texts(&self) -> [&'static str; 2] {
+        [self.files[2].1, self.files[3].1]
+    }
+
     /// Its configuration folder, in the user's cache; written if it is not there as it should be.
     ///
     /// # Errors

@@ -72,7 +72,7 @@ pub fn plant_text(paper: &str, mechanism: &Mechanism) -> String {
 ///
 /// * `mass` – of the robot (kg)
 /// * `leg` – length of its stretched leg from hip to ankle (m)
-pub(crate) fn servos(mass: f64, leg: f64) -> Servos {
+pub fn servos(mass: f64, leg: f64) -> Servos {
     let [mass, length] = [mass / PAPER_MASS, leg / LegReach::PAPER_LENGTH];
     let scaled = |servo: Servo| Servo {
         stiffness: rounded(servo.stiffness * mass * length),

@@ -13,6 +13,7 @@ mod floor_text;
 mod ground;
 mod held_drive;
 mod held_motion;
+mod held_start;
 mod instability;
 mod loads;
 mod mass_error;
@@ -39,6 +40,7 @@ pub use ground::{
 };
 pub use held_drive::HeldDrives;
 pub use held_motion::HeldMotion;
+pub use held_start::HeldStart;
 pub use instability::Instability;
 pub use mass_error::with_mass_error;
 pub use motor::{Drive, DriveTorque};

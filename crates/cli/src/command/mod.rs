@@ -7,6 +7,7 @@ mod config_options;
 mod connect;
 mod controller;
 mod destination;
+mod doctor;
 mod engine;
 mod export;
 mod import;
@@ -49,6 +50,7 @@ enum HalfstepCommand {
     Synthesize(synthesize::SynthesizeArgs),
     Paper(paper::PaperArgs),
     Check(check::CheckArgs),
+    Doctor(doctor::DoctorArgs),
     Bench(bench::BenchArgs),
     Export(export::ExportArgs),
     Import(import::ImportArgs),
@@ -79,6 +81,7 @@ impl Halfstep {
             HalfstepCommand::Synthesize(args) => args.run(json),
             HalfstepCommand::Paper(args) => args.run(json),
             HalfstepCommand::Check(args) => args.run(json),
+            HalfstepCommand::Doctor(args) => args.run(json),
             HalfstepCommand::Bench(args) => args.run(json),
             HalfstepCommand::Export(args) => args.run(json),
             HalfstepCommand::Import(args) => args.run(json),

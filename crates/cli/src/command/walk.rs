@@ -60,6 +60,10 @@ pub(super) struct WalkArgs {
     /// Show the robot in the browser, with means to drive and to push it: prints the address of the page, see `view`
     #[arg(long)]
     view: bool,
+    /// Walk on after a fall: 2 s later the robot is put back on its feet, where it began, and held there until a reset;
+    /// --view does so, too
+    #[arg(long)]
+    lift_when_fallen: bool,
 }
 
 /// The commands if no file is given.
@@ -186,7 +190,9 @@ impl WalkArgs {
         script.send()?;
         let view = self.view.then(|| Process::start("view", self.arguments_of_view(instance))).transpose()?;
         let mut of_plant = self.arguments(instance, folder);
-        of_plant.extend(["--end-when-fallen".into(), "--seed".into(), self.seed.to_string().into()]);
+        // Who looks on can bring the robot back to a stand with a reset.
+        let after_fall = if self.view || self.lift_when_fallen { "--lift-when-fallen" } else { "--end-when-fallen" };
+        of_plant.extend([after_fall.into(), "--seed".into(), self.seed.to_string().into()]);
         of_plant.extend(["--engine".into(), self.plant.name().into()]);
         if let Some(file) = &self.disturbances {
             of_plant.push(path_option("--disturbances", file));
