@@ -22,7 +22,7 @@ pub const ARROWS: Table<'_> = &[
     ("view", "BASE operator record wire runtime dynamics"),
     ("node", "BASE controller plant wire runtime record interchange gait dynamics"),
     ("operator", "BASE wire runtime"),
-    ("paper", "BASE plots gait dynamics"),
+    ("paper", "BASE plots synthesis gait dynamics"),
     ("plots", "BASE record wire synthesis gait dynamics"),
     ("interchange", "BASE wire plant dynamics"),
     ("synthesis", "BASE gait dynamics"),

@@ -83,6 +83,7 @@ pub const THREADS: Restriction<'_> = Restriction {
         ("crates/node/src/engine/external_engine.rs", "reads what the engine writes"),
         ("crates/node/src/push_bridge.rs", "exchanges pushes beside the loop"),
         ("crates/node/src/request_bridge.rs", "exchanges requests and replies beside the loop"),
+        ("crates/paper/src/search/candidate_pool.rs", "judges candidates on all cores"),
         ("crates/runtime/src/journal.rs", "writes beside the loop"),
         ("crates/view/src/server.rs", "watches and drives the robot while pages are served"),
     ],

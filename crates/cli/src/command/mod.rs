@@ -12,6 +12,7 @@ mod export;
 mod import;
 mod options;
 mod paper;
+mod paper_search;
 mod plant;
 mod plot;
 mod replay;

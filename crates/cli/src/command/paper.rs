@@ -9,6 +9,7 @@ use gait::RampKind;
 use node::configuration::Errors;
 
 use super::config_options::ConfigOptions;
+use super::paper_search::SearchArgs;
 use crate::error::CliError;
 use crate::output::{print_json, print_line, write_files};
 use crate::status::Status;
@@ -30,6 +31,8 @@ pub(super) struct PaperArgs {
     /// Draw the figures into this folder, and a page with all of them
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    search: SearchArgs,
 }
 
 impl PaperArgs {
@@ -50,6 +53,9 @@ impl PaperArgs {
             }
         }
         let (robot, reading) = errors.finish(robot.zip(reading))?;
+        if self.search.search {
+            return self.search.run(&files, (&robot, reading), scenarios, self.out.as_deref(), json);
+        }
         let reading = Reading {
             turn: self.turn_ramp.unwrap_or(reading.turn),
             extension: self.extension_ramp.unwrap_or(reading.extension),
