@@ -4,12 +4,12 @@ use std::fs;
 use std::path::Path;
 
 use config::Config;
+use dialogue::script;
 use gait::NominalTable;
 use halfstep_tests::repository;
 use interchange::import::{NamedText, import};
 use model::{Joint, Mechanism};
 use node::realtime::RealtimeParameters;
-use operator::script;
 use paper::{Reading, Scenario};
 use plant::{Disturbances, PlantParameters};
 use synthesis::GaitRecording;

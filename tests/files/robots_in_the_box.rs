@@ -3,10 +3,10 @@
 
 use std::fs;
 
-use halfstep::built_in_robots::ROBOTS;
-use halfstep::imported_robot::ImportedRobot;
 use halfstep_tests::{repository, shared};
 use interchange::import::NamedText;
+use robots::ImportedRobot;
+use robots::ROBOTS;
 
 #[test]
 fn the_robots_in_the_box_are_what_the_importer_writes() {

@@ -11,19 +11,20 @@ use gait::Start;
 use halfstep_tests::counting::allocations;
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::{controller_parameters, nominal, plant_parameters};
-use interface::{GaitChange, Request, Setpoint, Source};
+use interface::{GaitChange, Rate, Request, Source};
 use node::admission_worker::ClockedWorker;
-use node::announcements::Announced;
+use node::announcements::{Announced, Announcements};
 use node::controller_loop::run_controller;
 use node::cycle::{Clock, CycleTiming, Cycles};
 use node::interrupt::Interrupt;
-use node::plant_loop::run_plant;
+use node::physics::OwnPhysics;
+use node::plant_loop::{AfterFall, run_plant};
 use node::push_bridge::PushBridge;
 use node::recorder;
 use node::request_bridge::RequestBridge;
 use node::request_queue::{CAPACITY, RequestQueue};
 use plant::Plant;
-use runtime::{Rate, Scheduling, Usage};
+use runtime::{Scheduling, Usage};
 use wire::{ControllerPorts, Instance, OperatorPorts, PlantPorts};
 
 use crate::alone;
@@ -66,8 +67,9 @@ fn walk(ticks: u64) -> [Happened; 2] {
             let controller = Controller::new(mechanism, table, &parameters, Start::default()).unwrap();
             let worker = ClockedWorker::new(timing.clock, Scheduling::default()).unwrap();
             let mut driver = Driver { controller, worker };
+            let announcements = Announcements::new(Announced::Faults, "allocates", |_, _| String::new());
             let (mut recorder, recorder_thread) =
-                recorder::of_controller(timing.clock, timing.rate, None, reports, Announced::Faults).unwrap();
+                recorder::of_controller(timing.clock, timing.rate, None, reports, announcements).unwrap();
             let mut cycles = Cycles::new(timing, measurements, "plant", Some(ticks), Interrupt::default());
             let mut queue =
                 RequestQueue::new(RequestBridge::new(requests, timing.clock, CAPACITY, Scheduling::default()).unwrap());
@@ -87,10 +89,11 @@ fn walk(ticks: u64) -> [Happened; 2] {
             let (mut recorder, recorder_thread) =
                 recorder::of_plant(timing.clock, timing.rate, None, Announced::Faults).unwrap();
             let mut cycles = Cycles::new(timing, setpoints, "controller", Some(ticks), Interrupt::default());
-            let step = |plant: &mut Plant, setpoint: &Setpoint| Ok(plant.step(setpoint));
             let happened = watch(|| {
-                let run =
-                    run_plant(&mut plant, step, &mut cycles, &mut measurements, &mut pushes, &mut recorder, false);
+                let (measurements, pushes, recorder) = (&mut measurements, &mut pushes, &mut recorder);
+                let after_fall = &AfterFall::Stay;
+                let physics = &mut OwnPhysics;
+                let run = run_plant(&mut plant, physics, &mut cycles, measurements, pushes, recorder, after_fall);
                 run.unwrap().ticks
             });
             drop(recorder);

@@ -4,6 +4,7 @@ mod a_dropped_robot_settles_at_its_weight;
 mod a_push_changes_momentum_by_its_impulse;
 mod a_slope_tilts_nothing_but_gravity;
 mod an_unstable_simulation_is_noticed;
+mod energy_of_the_drives_becomes_that_of_the_robot;
 mod friction_holds_below_the_cone_and_slips_above;
 mod held_joints_yield_to_gravity;
 mod sensor_faults_follow_the_script;

@@ -24,9 +24,9 @@ fn a_fault_that_stops_a_walk_is_named_with_its_time() {
     assert!(lines[0].ends_with("no fall, stopped by a fault"), "{lines:?}");
     let named = format!("fault at 2.30 s: {FAULT}; at the end faulted");
     assert_eq!(lines[1], named, "{lines:?}");
-    let told = format!("controller: fault at 2.30 s: {FAULT}; it waits for a reset");
-    assert!(ended.stderr.lines().any(|line| line == told), "{}", ended.stderr);
-    let refusal = format!("at 5.00 s: refused: a fault is latched: send reset ({FAULT}, since 2.30 s)");
+    let told = format!("controller: fault at 2.30 s: {FAULT}; when that is mended: `halfstep send --instance walk-");
+    assert!(ended.stderr.lines().any(|line| line.starts_with(&told)), "{}", ended.stderr);
+    let refusal = format!("at 5.00 s, turn 5°: refused: a fault is latched: send reset ({FAULT}, since 2.30 s)");
     assert!(ended.stderr.lines().any(|line| line == refusal), "{}", ended.stderr);
 
     let ended = command_line.run(&format!("{walk} json --json"));

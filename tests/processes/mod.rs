@@ -2,7 +2,9 @@
 //! its own instance; nearly all walk in lockstep, so that a busy machine only makes them slower.
 
 mod a_bad_line_spoils_itself_only;
+mod a_configuration_is_examined;
 mod a_disturbance_script_is_played;
+mod a_fallen_robot_is_lifted_and_walks_again;
 mod a_fault_that_stops_a_walk_is_named;
 mod a_full_disk_is_told_at_once;
 mod a_full_shared_memory_is_told_and_stops_no_stop;
@@ -10,10 +12,13 @@ mod a_halted_lockstep_run_goes_on;
 mod a_kill_at_any_instant_leaves_nothing;
 mod a_killed_run_can_be_read;
 mod a_page_looks_on_and_one_page_drives;
+mod a_page_walks_to_the_bits_of_two_processes;
+mod a_part_of_a_run_and_two_runs_are_drawn;
 mod a_push_by_hand_is_one_of_a_script;
 mod a_recording_holds_the_run;
 mod a_recording_is_never_overwritten;
 mod a_replay_gives_the_same_bits;
+mod a_running_robot_is_seen_from_outside;
 mod a_script_of_any_length_gives_the_same_bits;
 mod a_second_controller_is_refused;
 mod a_silent_stream_stops_the_walk;
@@ -24,7 +29,9 @@ mod a_stream_follows_its_newest_line;
 mod a_walk_to_a_destination_is_waited_for;
 mod bad_configuration_is_refused_with_every_error;
 mod both_sides_agree_on_clock_and_start;
+mod every_command_keeps_the_rules;
 mod every_error_is_the_pinned_text;
+mod keys_drive_a_robot_in_a_terminal;
 mod nobody_else_gets_in;
 mod output_that_nobody_reads_ends_nothing;
 mod recordings_of_other_tools_are_read;

@@ -187,13 +187,22 @@ fn what_a_recording_lacks_is_said_and_no_empty_picture_is_drawn() {
 
     let drawn = command_line.run("plot c");
     assert_eq!(drawn.code, Some(0));
-    assert!(drawn.stderr.starts_with("it holds no states of the plant (/truth): only what the controller reports"));
-    assert!(!command_line.folder().join("c/footprints.svg").exists());
+    assert!(
+        drawn.stderr.starts_with("it holds no states of the plant (/truth): the robot is drawn where the controller")
+    );
+    for picture in ["footprints", "stick_walk", "balance_over_time"] {
+        assert!(command_line.read(&format!("c/{picture}.svg")).contains("as the controller estimates"), "{picture}");
+    }
     assert!(command_line.read("c/margin_over_time.svg").contains("<path"));
     let drawn = command_line.run("plot p");
     assert_eq!(drawn.code, Some(0));
-    assert!(drawn.stderr.contains("Give controller and plant the same --out"), "{}", drawn.stderr);
-    assert!(!command_line.folder().join("p/footprints.svg").exists());
+    assert!(drawn.stderr.contains("give controller and plant the same --out"), "{}", drawn.stderr);
+    assert!(drawn.stdout.contains("not drawn: zmp_over_time.svg: no report of the controller was recorded"));
+    assert!(command_line.read("p/footprints.svg").contains("<path"));
+    assert!(!command_line.folder().join("p/zmp_over_time.svg").exists());
+    for folder in ["c", "p"] {
+        assert!(command_line.read(&format!("{folder}/index.html")).contains("class=\"note\">it holds no "), "{folder}");
+    }
     assert!(command_line.run("replay p").stderr.contains("has no controller.toml attached"));
 
     let whole = fs::read(command_line.folder().join("c/controller.mcap")).unwrap();
@@ -234,7 +243,7 @@ fn recordings_of_earlier_versions_are_read() {
     let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
     for file in ["20-attachments-at-the-end/rewritten.mcap", "21-compressed-recording/zstd.mcap"] {
         let file = cases.join(file);
-        let drawn = command_line.run(&format!("plot {} --out pictures", file.display()));
+        let drawn = command_line.run(&format!("plot {} --out pictures --force", file.display()));
         assert_eq!(drawn.code, Some(0), "{}", drawn.stderr);
         let replayed = command_line.run(&format!("replay {}", file.display()));
         assert!(replayed.stdout.starts_with("differs in tick 0"), "{}{}", replayed.stdout, replayed.stderr);

@@ -45,8 +45,13 @@ fn a_walk_draws_every_picture() {
     assert_eq!(ended.code, Some(0), "{}", ended.stderr);
     assert!(ended.stdout.contains("runs/0001"), "it says where they are: {}", ended.stdout);
     let over_time = ["balance_over_time", "margin_over_time", "compensation_over_time", "zmp_over_time"];
-    for picture in over_time.into_iter().chain(["footprints", "zmp_in_sole", "stick_walk"]) {
+    let drives = ["joints_over_time", "joint_errors_over_time", "torques_over_time", "currents_over_time"];
+    let pictures = over_time.into_iter().chain(drives).chain(["footprints", "zmp_in_sole", "stick_walk"]);
+    let page = command_line.read("runs/0001/index.html");
+    for picture in pictures {
         let text = command_line.read(&format!("runs/0001/{picture}.svg"));
         assert!(text.starts_with("<svg") && text.trim_end().ends_with("</svg>"), "{picture}.svg");
+        assert!(page.contains(&format!("<figure id=\"{picture}.svg\">")), "{picture} is on the page");
     }
+    assert!(page.contains("controller.toml") && page.contains("least margin") && page.contains("cost of transport"));
 }

@@ -8,12 +8,12 @@ use std::process::Stdio;
 
 use config::Config;
 use dynamics::{NewtonEuler, Tree, mass_matrix};
-use halfstep::built_in_robots::ROBOTS;
 use halfstep_tests::walking::plant_parameters;
 use halfstep_tests::{mechanism, python, random, random_motion, repository};
 use interchange::mjcf::mjcf_text;
 use interchange::urdf::urdf_text;
 use model::{Joint, Mechanism, Motion};
+use robots::ROBOTS;
 use serde_json::{Value, json};
 
 const STATES: usize = 20;

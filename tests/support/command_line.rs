@@ -81,6 +81,15 @@ impl CommandLine {
         self.folder().join(RUNTIME)
     }
 
+    /// Copies the scenarios of the paper's figures to the configuration.
+    pub fn copy_scenarios(&self) {
+        let to = self.folder().join("config/scenarios");
+        fs::create_dir(&to).expect("a folder of its own");
+        for file in fs::read_dir(crate::repository().join("config/scenarios")).expect("the committed ones").flatten() {
+            fs::copy(file.path(), to.join(file.file_name())).expect("it is copied");
+        }
+    }
+
     /// The folder.
     pub fn folder(&self) -> &Path {
         self.folder.path()

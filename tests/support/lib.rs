@@ -4,10 +4,12 @@
 pub mod command_line;
 pub mod counting;
 pub mod destination;
+pub mod fall_trial;
 #[cfg(feature = "command-line")]
 pub mod kill_trial;
 #[cfg(feature = "command-line")]
 pub mod paper;
+pub mod planted_faults;
 pub mod pushing;
 #[cfg(feature = "command-line")]
 mod python_side;

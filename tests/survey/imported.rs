@@ -6,12 +6,12 @@ use std::sync::Arc;
 use config::Config;
 use controller::Parameters;
 use gait::{NominalTable, Start, Walk};
-use halfstep::imported_robot::ImportedRobot;
 use halfstep_tests::walking::{PERIOD, Walking};
 use interchange::import::NamedText;
 use model::Mechanism;
 use node::engine::EngineSetup;
 use plant::{Disturbances, PlantParameters, RobotState};
+use robots::ImportedRobot;
 
 use crate::mujoco::Outside;
 

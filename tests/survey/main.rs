@@ -13,6 +13,7 @@ mod capturability;
 mod cores;
 #[cfg(all(feature = "mujoco", feature = "processes"))]
 mod directions;
+mod doctor;
 mod faults;
 mod files;
 #[cfg(feature = "mujoco")]
@@ -30,6 +31,7 @@ mod mujoco_pushes;
 mod needs;
 mod playback;
 mod pushes;
+mod resets;
 #[cfg(all(feature = "mujoco", feature = "processes"))]
 mod robots;
 mod sensor_variations;
@@ -40,6 +42,7 @@ mod start_stop;
 mod starvation;
 mod streams;
 mod table;
+mod tuning;
 mod variations;
 #[cfg(feature = "mujoco")]
 mod velocities;
@@ -73,6 +76,12 @@ enum Survey {
     Capturability(capturability::Options),
     /// Other floors, masses, loads, slopes and delays than the controller believes
     Variations(variations::Options),
+    /// Falls to every side, each followed by a reset on the robot's feet, in a stand and in other postures
+    Resets(resets::Options),
+    /// The doctor with the robots in the box, which are healthy, and with planted faults, which it must name
+    Doctor(doctor::Options),
+    /// The pictures of docs/tuning.md
+    Tuning(tuning::Options),
     /// Wrong sensors: every kind, group and duration, walking and standing; and false alarms of clean walks
     Faults(faults::Options),
     /// Compensation needed: the paper's leans and ours, and which walks fall without it
@@ -120,6 +129,9 @@ fn main() -> ExitCode {
         Survey::StartStop(options) => start_stop::survey(options),
         Survey::Pushes(options) => pushes::survey(options),
         Survey::Capturability(options) => capturability::survey(options),
+        Survey::Resets(options) => resets::survey(options),
+        Survey::Doctor(options) => doctor::survey(options),
+        Survey::Tuning(options) => tuning::survey(options),
         Survey::Variations(options) => variations::survey(options),
         Survey::Faults(options) => faults::survey(options),
         Survey::Needs(options) => needs::survey(options),

@@ -1,8 +1,11 @@
 //! MuJoCo: what is granted in our own plant, walked in a physics engine that none of us wrote, with the same
 //! parameters.
 
+use std::cell::RefCell;
+
 use controller::Parameters;
 use gait::{Start, Walk};
+use halfstep_tests::fall_trial::{AfterReset, FallTrial};
 use halfstep_tests::mechanism;
 use halfstep_tests::walking::{PERIOD, Walking, controller_parameters, nominal, plant_parameters};
 use interface::{GaitChange, Measurement, Setpoint, Verdict};
@@ -86,6 +89,22 @@ pub(crate) fn start(mechanism: &Mechanism, controller: &Parameters) -> Motion {
     Walk::new(nominal(), mechanism, &controller.gait, Start::default())
         .expect("the committed nominal walks")
         .physical_motion()
+}
+
+/// A fall and a reset.
+pub(crate) fn after_fall(trial: &FallTrial) -> AfterReset {
+    let (mechanism, controller, plant) = (mechanism(), controller_parameters(), plant_parameters());
+    let begins = start(&mechanism, &controller);
+    let mut walking = Walking::begin_with(&mechanism, &controller, &plant, trial.seed);
+    walking.plant.disturbances.pushes.push(trial.push());
+    let outside = Outside::begin(&mechanism, &plant, &walking.plant.disturbances, &begins, trial.seed);
+    let outside = RefCell::new(outside);
+    let step = |robot: &mut Plant, setpoint: &Setpoint| outside.borrow_mut().step(robot, setpoint);
+    let place = |_: &Plant, posture: &Motion| {
+        let nothing = Disturbances::default();
+        outside.replace(Outside::begin(&mechanism, &plant, &nothing, posture, trial.seed));
+    };
+    trial.run_in(walking, step, place)
 }
 
 pub(crate) fn survey(options: &Options) -> bool {

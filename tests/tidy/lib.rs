@@ -16,6 +16,7 @@ pub mod restricted_names;
 pub mod side_arms;
 pub mod sources;
 pub mod syntax;
+pub mod system_mathematics;
 pub mod test_names;
 pub mod type_names;
 pub mod units;

@@ -2,6 +2,7 @@
 
 mod a_broken_limit_excuses_no_other;
 mod a_grant_does_not_depend_on_the_millisecond;
+mod a_reset_brings_a_fallen_robot_back;
 mod a_speed_request_takes_effect_at_once;
 mod a_stop_waits_for_nothing;
 mod a_tick_returns_for_every_period;
@@ -18,6 +19,7 @@ mod same_inputs_same_bits;
 mod starts_and_stops_in_any_order;
 mod steps_in_place;
 mod the_controller_begins_where_the_robot_is;
+mod the_doctor_names_what_is_wrong;
 mod the_preview_keeps_the_zmp_in_the_sole;
 mod the_report_says_who_can_be_caught;
 mod walks_by_every_extreme_of_what_is_granted;

@@ -5,7 +5,9 @@
     rerun walk.rrd
 
 Right is blue, left orange, the zero-moment point black, the centre of mass green, as in Halfstep's own pictures. A sole that
-bears is drawn thick. The robot is drawn from the mechanism that is attached to the recording.
+bears is drawn thick, and where it bore it leaves a footprint. Points on the floor are drawn at the height of the sole that
+bears most, so also on steps and ramps. After a fall nothing is drawn: only soles touch the ground, the rest would sink in.
+The robot is drawn from the mechanism that is attached to the recording.
 """
 
 import argparse
@@ -129,16 +131,22 @@ def main():
 def draw(reader, mechanism, every):
     """Logs everything in order of time."""
     soles, due_truth, due_report, trails = None, 0.0, 0.0, {"zmp": Trail(), "com": Trail()}
+    footprints, has_fallen = Footprints(mechanism), False
     messages = reader.iter_decoded_messages(topics=["/truth", "/reports"])
     for _, channel, message, decoded in messages:
         time = message.log_time * 1e-9
         rr.set_time("run", duration=time)
+        if channel.topic == "/truth":
+            has_fallen = has_fallen or bool(decoded.fallen)
+        if has_fallen:
+            continue
         if channel.topic == "/truth" and time >= due_truth:
             due_truth = time + every - 1e-9
             poses = mechanism.poses(decoded.right_sole, decoded.angles)
             soles = mechanism.soles(poses)
             draw_robot(mechanism, poses, soles, decoded)
-            draw_points(decoded, trails, time)
+            draw_points(decoded, trails, time, height_under(soles, decoded))
+            footprints.note(soles, decoded)
         elif channel.topic == "/reports" and time >= due_report and soles is not None:
             due_report = time + every - 1e-9
             draw_report(decoded, soles)
@@ -155,13 +163,36 @@ def draw_robot(mechanism, poses, soles, truth):
         rr.log(f"load/{side}", rr.Scalars(load))
 
 
-def draw_points(truth, trails, time):
+def height_under(soles, truth):
+    """The height of the sole that bears most."""
+    return float(soles[int(np.argmax(truth.loads))][1][2])
+
+
+class Footprints:
+    """Where each sole stood, one for every time that it bore."""
+
+    def __init__(self, mechanism):
+        self.mechanism, self.bore, self.count = mechanism, [False, False], [0, 0]
+
+    def note(self, soles, truth):
+        """A sole that begins to bear leaves a footprint, which follows it until it is lifted."""
+        sides = zip(("right", "left"), (RIGHT, LEFT), soles, self.mechanism.outlines, truth.loads)
+        for side, (name, colour, (turn, place), corners, load) in enumerate(sides):
+            bears = load > BEARS
+            if bears:
+                self.count[side] += not self.bore[side]
+                outline = rr.LineStrips3D([corners @ turn.T + place], colors=[colour], radii=[0.002])
+                rr.log(f"world/footprints/{name}/{self.count[side]}", outline)
+            self.bore[side] = bears
+
+
+def draw_points(truth, trails, time, height):
     """Where the ground reaction acts and where the centre of mass is, with the paths they came by."""
-    com, floor = np.array(truth.com), np.array([truth.com[0], truth.com[1], 0])
+    com, floor = np.array(truth.com), np.array([truth.com[0], truth.com[1], height])
     rr.log("world/com", rr.Points3D([com], colors=[COM], radii=[0.035]))
     rr.log("world/com/floor", rr.LineStrips3D([trails["com"].grown(time, floor)], colors=[COM], radii=[0.003]))
     if np.all(np.isfinite(truth.zmp)):
-        zmp = np.array([*truth.zmp, 0])
+        zmp = np.array([*truth.zmp, height])
         rr.log("world/zmp", rr.Points3D([zmp], colors=[ZMP], radii=[0.018]))
         rr.log("world/zmp/path", rr.LineStrips3D([trails["zmp"].grown(time, zmp)], colors=[ZMP], radii=[0.002]))
     rr.log("walk/trunk_tilt_deg", rr.Scalars(np.degrees(truth.trunk_tilt)))

@@ -57,17 +57,18 @@ const PART: usize = 100;
 /// Start of the walk that is not timed, in which caches and branch predictors warm up (control periods).
 const WARM_UP: u64 = 2000;
 
-/// Measures all computing times.
+/// Measures all computing times; calls `after_round` after each round.
 ///
 /// # Errors
 /// The robot cannot walk with these parameters.
-pub fn compute(options: &ComputeOptions) -> Result<BenchReport, BenchError> {
+pub fn compute(options: &ComputeOptions, after_round: impl Fn()) -> Result<BenchReport, BenchError> {
     let _granted = options.scheduling.request();
     let mut works = works(options)?;
     for _ in 0..options.rounds {
         for work in &mut works {
             work.turn(options.slice);
         }
+        after_round();
     }
     let series: Vec<Series> = works.into_iter().map(|work| work.series).collect();
     let tick = series.iter().find(|series| series.name == TICK);

@@ -8,10 +8,10 @@ use std::collections::VecDeque;
 use std::hint::spin_loop;
 use std::time::Duration;
 
-use interface::{GaitChange, Request, Setpoint, Source};
+use interface::{GaitChange, Rate, Request, Setpoint, Source};
 use model::Mechanism;
 use plant::Plant;
-use runtime::{Rate, Scheduling, now_ns};
+use runtime::{Scheduling, now_ns};
 use wire::{Instance, MeasurementMessage, ObserverPorts, OperatorPorts, PendingReply, PlantPorts, ReplyMessage};
 
 use crate::{BenchError, BenchReport, Machine, Ratio, Reduction, Series};

@@ -64,6 +64,7 @@ pub fn exchange(
     options: &ExchangeOptions,
     instance: &Instance,
     answering: impl FnOnce() -> std::io::Result<std::process::Command>,
+    after_round: impl Fn(),
 ) -> Result<BenchReport, BenchError> {
     let _leftovers = instance.leftovers();
     let mut ways = asking_ways(instance)?;
@@ -88,6 +89,7 @@ pub fn exchange(
             asking.send(&MeasurementMessage { tick: LAST, ..MeasurementMessage::EMPTY });
             std::thread::sleep(SETTLING_TIME);
         }
+        after_round();
     }
 
     let mut ratios = Vec::new();

@@ -42,11 +42,11 @@ struct Loops {
     share: Vec<f64>,
 }
 
-/// Measures all loops.
+/// Measures all loops; calls `after_segment` after each segment of all of them.
 ///
 /// # Errors
 /// cyclictest is installed and fails.
-pub fn jitter(options: &JitterOptions) -> Result<BenchReport, BenchError> {
+pub fn jitter(options: &JitterOptions, after_segment: impl Fn()) -> Result<BenchReport, BenchError> {
     // Held for all loops: cyclictest does so, too.
     let awake = Scheduling { keep_awake: options.scheduling.keep_awake, ..Scheduling::default() }.request();
     let with_cyclictest = options.scheduling.priority.is_some() && cyclictest::is_installed();
@@ -58,6 +58,7 @@ pub fn jitter(options: &JitterOptions) -> Result<BenchReport, BenchError> {
         for (loops, busy_core) in &mut conditions {
             while_busy(*busy_core, || loops.take_turns(options, segment, with_cyclictest))?;
         }
+        after_segment();
     }
 
     let mut ratios = Vec::new();

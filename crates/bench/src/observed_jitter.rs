@@ -8,11 +8,12 @@ use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use interface::Rate;
 use model::Mechanism;
 use node::summary::ControllerSummary;
 use node::timing::TimingStats;
 use plant::Plant;
-use runtime::{Period, Rate, keep_off};
+use runtime::{Period, keep_off};
 use wire::{Instance, ObserverPorts, OperatorPorts};
 
 use crate::control_latency::{SimulatedRobot, connect_retrying};
@@ -45,6 +46,7 @@ pub fn observed_jitter(
     command: impl Fn(Option<&Path>) -> std::io::Result<Command>,
     mechanism: &Mechanism,
     new_plant: impl Fn() -> Plant,
+    after_segment: impl Fn(),
 ) -> Result<(Vec<Series>, Vec<Ratio>), BenchError> {
     let failed = |error| BenchError::new("a folder to record into", error);
     let folder = tempfile::tempdir().map_err(failed)?;
@@ -68,6 +70,7 @@ pub fn observed_jitter(
                 series.add(spread.p99_us * 1e3);
             }
         }
+        after_segment();
     }
     let [alone, observed] = both;
     let ratio = |(ours, theirs): (&Series, &Series)| Ratio {

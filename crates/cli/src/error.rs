@@ -41,6 +41,11 @@ impl CliError {
         move |error| Self::new(format!("{}: {error}", path.display()))
     }
 
+    /// A file that the user names cannot be read.
+    pub(crate) fn input_file(path: &Path) -> impl Fn(io::Error) -> Self {
+        move |error| Self::bad_input(format!("{}: {error}", path.display()))
+    }
+
     /// The exit code of the program: 2 for a wrong command line or input file, else 1.
     pub(crate) fn exit_code(&self) -> ExitCode {
         ExitCode::from(if self.bad_input { 2 } else { 1 })
@@ -108,6 +113,15 @@ impl From<interchange::import::ImportError> for CliError {
     }
 }
 
+impl From<robots::ImportedRobotError> for CliError {
+    fn from(error: robots::ImportedRobotError) -> Self {
+        match error {
+            robots::ImportedRobotError::Import(error) => error.into(),
+            error => Self::bad_input(error),
+        }
+    }
+}
+
 impl From<plots::run_log::CsvError> for CliError {
     fn from(error: plots::run_log::CsvError) -> Self {
         Self::new(error)
@@ -116,7 +130,8 @@ impl From<plots::run_log::CsvError> for CliError {
 
 impl From<record::RecordError> for CliError {
     fn from(error: record::RecordError) -> Self {
-        use record::RecordError::{NotMcap, Nothing, OtherVersion, UnknownCompression, Unreadable, WrongSize};
+        use record::RecordError::{Io, NotMcap, Nothing, OtherVersion, UnknownCompression, Unreadable, WrongSize};
+        let is_missing = matches!(&error, Io { source, .. } if source.kind() == io::ErrorKind::NotFound);
         let is_input = matches!(
             error,
             Nothing { .. }
@@ -126,7 +141,7 @@ impl From<record::RecordError> for CliError {
                 | Unreadable { .. }
                 | WrongSize { .. }
         );
-        if is_input { Self::bad_input(error) } else { Self::new(error) }
+        if is_input || is_missing { Self::bad_input(error) } else { Self::new(error) }
     }
 }
 

@@ -3,27 +3,38 @@
 //! One command per file in `command`: its options, and what it prints. The crates below do the work. `process` runs
 //! other `halfstep` processes, `error` and `status` are how a command ends, `output` prints and writes.
 
-pub mod built_in_robots;
 mod command;
 mod error;
-pub mod imported_robot;
+mod instance_status;
+mod messages;
+mod observed_changes;
 mod output;
+mod output_folder;
+mod plotted_run;
 mod process;
 mod progress;
+mod recorded_floor;
+mod robot_folder;
+mod state_line;
 mod status;
 mod walk_summary;
+mod work_progress;
 
 use std::process::ExitCode;
 
-use clap::Parser;
-use tracing_subscriber::EnvFilter;
+use clap::{CommandFactory, Parser};
 
 pub use crate::error::CliError;
 
+/// The command line as clap knows it: every command with its options and its help, for completions and manual pages.
+pub fn command_line() -> clap::Command {
+    command::Halfstep::command()
+}
+
 /// Runs the command line: the whole program, which `main` calls.
 ///
-/// Exit codes: 0 success, 1 failure, a fall or a latched fault of the robot, 2 the command line or an input file is
-/// wrong.
+/// Exit codes: 0 success; 1 failure, a refusal, a fall or a latched fault of the robot; 2 the command line or an input
+/// file is wrong.
 pub fn run() -> ExitCode {
     let halfstep = match command::Halfstep::try_parse() {
         Ok(halfstep) => halfstep,
@@ -38,9 +49,7 @@ pub fn run() -> ExitCode {
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
     };
-    let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("warn"));
-    // Its own way to report that stderr cannot be written is to write to stderr, which panics.
-    tracing_subscriber::fmt().with_writer(std::io::stderr).with_env_filter(filter).log_internal_errors(false).init();
+    messages::begin(halfstep.is_quiet());
     let json = halfstep.prints_json();
     match halfstep.run() {
         Ok(status) => status.into(),

@@ -1,13 +1,11 @@
-//! Prints results and writes files of commands.
+//! Prints results of commands.
 
-use std::fs;
 use std::io::{ErrorKind, Write};
-use std::path::Path;
 
-use node::tell::tell;
 use serde::Serialize;
 
 use crate::error::CliError;
+use crate::messages::complain;
 
 /// Prints a value as JSON or as text.
 pub(crate) fn print(json: bool, value: &(impl Serialize + std::fmt::Display)) -> Result<(), CliError> {
@@ -35,21 +33,7 @@ pub(crate) fn print_error(json: bool, error: &CliError) {
         // What cannot be printed here can be printed nowhere.
         let _ = print_json(error);
     }
-    tell(error);
-}
-
-/// Writes files, given by name and text, into a folder, which is created if necessary.
-pub(crate) fn write_files(folder: &Path, files: &[(&str, String)]) -> Result<(), CliError> {
-    fs::create_dir_all(folder).map_err(CliError::file(folder))?;
-    for (name, text) in files {
-        let file = folder.join(name);
-        fs::write(&file, text).map_err(|error| {
-            // On a full disk: half a file is worse than none.
-            let _ = fs::remove_file(&file);
-            CliError::file(&file)(error)
-        })?;
-    }
-    Ok(())
+    complain(error);
 }
 
 /// Quotes a word for the shell.

@@ -5,6 +5,7 @@ use std::io::Read;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::Duration;
 
+use node::tell::is_quiet;
 use runtime::now_ns;
 use rustix::process::{Pid, Signal};
 use serde::Deserialize;
@@ -42,6 +43,7 @@ impl Process {
             .args(arguments)
             .args(["--json", "--parent"])
             .arg(std::process::id().to_string())
+            .args(is_quiet().then_some("--quiet"))
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .spawn()

@@ -7,6 +7,7 @@ use node::request_queue::Tally;
 use node::summary::{FaultSummary, counted};
 use node::timing::TimingStats;
 use plots::run_log::{Fall, Measures};
+use plots::run_summary::{load_text, margin_text, most_loaded};
 use serde::Serialize;
 
 /// Summary of a walk; `summary.json`.
@@ -39,6 +40,9 @@ pub(crate) struct WalkSummary {
     /// How well the controller's loop kept time; `None` in lockstep.
     #[serde(rename = "kept_time")]
     pub timing: Option<TimingStats>,
+    /// Hash of all setpoints, which is the same for the same bits; absent in JSON in real time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub setpoint_hash: Option<String>,
     /// Entries missing in the recording because its writers fell behind.
     pub log_gaps: u64,
     /// What went wrong beside a fall, one text each: the simulation became unstable, or the run could not be recorded.
@@ -61,15 +65,16 @@ pub(crate) struct SummaryInFolder<'a> {
 impl fmt::Display for SummaryInFolder<'_> {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
         let Self { folder, summary } = self;
-        write!(out, "{summary}\nrun.mcap, summary.json and pictures are in {}", folder.display())
+        write!(out, "{summary}\nrun.mcap, summary.json and pictures, all on index.html, are in {}", folder.display())
     }
 }
 
 impl fmt::Display for WalkSummary {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        let Measures { half_steps, distance_m, truth, min_margin_mm, falls, fall, .. } = self.measures;
-        let heading_deg = truth.heading_deg;
-        let margin = min_margin_mm.map_or("unknown".to_owned(), |margin| format!("{:.0} mm", margin.round() + 0.0));
+        let Measures { half_steps, distance_m, truth, estimated, falls, fall, .. } = self.measures;
+        // Else it might be printed as -0.0.
+        let heading_deg = (truth.unwrap_or(estimated).heading_deg * 10.0).round() / 10.0 + 0.0;
+        let margin = margin_text(self.measures.least_margin.as_ref());
         let falls = if falls == 0 { "no fall".to_owned() } else { counted(falls as u64, "fall") };
         let half_steps = counted(half_steps, "half-step");
         write!(
@@ -93,6 +98,16 @@ impl fmt::Display for WalkSummary {
                 None => writeln!(out, " with its capture point over the soles")?,
             }
         }
+        let mut also = Vec::new();
+        also.extend(self.measures.zmp_error_rms_mm.map(|error| format!("ZMP error {error:.1} mm RMS")));
+        if let Some(cost) = self.measures.cost_of_transport {
+            let electrical = cost.electrical.map_or(String::new(), |cost| format!("{cost:.2} electrical, "));
+            also.push(format!("cost of transport {electrical}{:.2} mechanical", cost.mechanical));
+        }
+        also.extend(most_loaded(&self.measures.joint_loads).map(load_text));
+        if !also.is_empty() {
+            writeln!(out, "{}", also.join("; "))?;
+        }
         if self.floor != "a plane" {
             writeln!(out, "the floor: {}", self.floor)?;
         }
@@ -100,6 +115,7 @@ impl fmt::Display for WalkSummary {
         let Self { real_time_factor, deadline_misses, log_gaps, timing, .. } = self;
         let (misses, gaps) = (counted(*deadline_misses, "deadline"), counted(*log_gaps, "report"));
         write!(out, "{real_time_factor:.1} × real time, {misses} missed, {gaps} dropped")?;
+        self.setpoint_hash.as_ref().map_or(Ok(()), |hash| write!(out, ", setpoints {hash}"))?;
         timing.map_or(Ok(()), |timing| write!(out, "\nthe controller's {timing}"))?;
         self.problems.iter().try_for_each(|problem| write!(out, "\n{problem}"))
     }

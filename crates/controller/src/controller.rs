@@ -295,7 +295,7 @@ impl Controller {
             let mirror = gait.walk().mirror();
             let motion = mirror.to_support(gait.half_step().support, &recovery);
             self.reference.update(&self.tree, mirror, &motion, PlannedContact::BothFeet);
-            return motion;
+            return motion + *self.feedback.offsets();
         }
         let gait = self.pattern.gait_mut();
         if gait.advance(dt) {

@@ -23,6 +23,7 @@ mod plausibility;
 mod recovery;
 mod rejected_sensors;
 mod report;
+mod request_schedule;
 mod sensor_consistency;
 mod validator_parameters;
 
@@ -35,5 +36,6 @@ pub use measurement_validator::MeasurementValidator;
 pub use parameters::Parameters;
 pub use pattern::Compensation;
 pub use report::Tick;
+pub use request_schedule::{DueRequest, RequestAnswer, RequestId, RequestSchedule};
 pub use sensor_consistency::ConsistencyParameters;
 pub use validator_parameters::ValidatorParameters;

@@ -162,7 +162,7 @@ impl MeasurementValidator {
     /// Notes the trunk's motion, as far as it can be used.
     fn note_trunk(&mut self, up: Option<Vector3<f64>>, rate: Vector3<f64>, rejected: &RejectedSensors) {
         let Some(up) = up else { return };
-        let is_tilted = up.z < self.parameters.tilt_max.cos();
+        let is_tilted = up.z < libm::cos(self.parameters.tilt_max);
         self.tilted = if is_tilted { self.tilted + self.orientation_age } else { 0.0 };
         self.orientation_age = 0.0;
         if !rejected.groups().contains(SensorGroup::AngularRate) {
@@ -201,7 +201,7 @@ impl MeasurementValidator {
         let expected = last_up + last_up.cross(&((last_rate + rate) * (self.trunk_age / 2.0)));
         if (rate - last_rate).amax() > trunk_rate_jump_max {
             rejected.insert(Fault::MeasurementImplausible, Sensor::AngularRate);
-        } else if up.dot(&expected.normalize()) < orientation_jump_max.cos() {
+        } else if up.dot(&expected.normalize()) < libm::cos(orientation_jump_max) {
             rejected.insert(Fault::MeasurementImplausible, Sensor::Orientation);
         }
     }

@@ -25,10 +25,7 @@ enum Activity {
     /// The gait pattern is played.
     Gait,
     /// After a fall, or found in a posture that is none of the gait's: the joints hold.
-    HoldingPosture {
-        /// Whether the robot was found so, and not held so since a fall.
-        is_found: bool,
-    },
+    HoldingPosture,
     /// After a reset, or found near a stand: the joints move to the stand.
     Recovering(Recovery),
 }
@@ -71,12 +68,12 @@ impl OperatingState {
 
     /// Whether the joints hold a posture that is none of the gait's.
     pub(crate) fn holds_posture(&self) -> bool {
-        matches!(self.activity, Activity::HoldingPosture { .. })
+        matches!(self.activity, Activity::HoldingPosture)
     }
 
-    /// Whether the robot was found in the posture that it holds.
-    pub(crate) fn is_found(&self) -> bool {
-        matches!(self.activity, Activity::HoldingPosture { is_found: true })
+    /// Whether the joints move to a stand.
+    pub(crate) fn is_recovering(&self) -> bool {
+        matches!(self.activity, Activity::Recovering(_))
     }
 
     /// Whether the gait pattern is played.
@@ -86,15 +83,13 @@ impl OperatingState {
 
     /// Latches a fall.
     pub(crate) fn fall(&mut self) {
-        if !self.holds_posture() {
-            self.activity = Activity::HoldingPosture { is_found: false };
-        }
+        self.activity = Activity::HoldingPosture;
         self.latched = Some(Fault::Fallen);
     }
 
     /// Holds the posture in which the robot was found until a reset, and latches `fault` if none is latched.
     pub(crate) fn hold_posture(&mut self, fault: Fault) {
-        self.activity = Activity::HoldingPosture { is_found: true };
+        self.activity = Activity::HoldingPosture;
         self.latched = self.latched.or(Some(fault));
     }
 
@@ -131,8 +126,8 @@ impl OperatingState {
     /// The mode to report while the gait is in `phase`.
     pub(crate) fn mode(&self, phase: GaitPhase) -> Mode {
         match (&self.activity, phase) {
-            (Activity::HoldingPosture { .. }, _) if self.latched == Some(Fault::Fallen) => Mode::Fallen,
-            (Activity::HoldingPosture { .. }, _) => Mode::Faulted,
+            (Activity::HoldingPosture, _) if self.latched == Some(Fault::Fallen) => Mode::Fallen,
+            (Activity::HoldingPosture, _) => Mode::Faulted,
             (Activity::Recovering(_), _) => Mode::Starting,
             (Activity::Gait, GaitPhase::Standing(_)) if self.latched.is_some() => Mode::Faulted,
             (Activity::Gait, GaitPhase::Standing(Stance::Parallel)) => Mode::Standing,

@@ -31,6 +31,16 @@ pub struct Parameters {
     pub arbiter: ArbiterParameters,
 }
 
+impl Parameters {
+    /// The same where simulated time passes faster than that of operators: the commands of a stream do not expire.
+    /// Operators live by wall-clock time, and half a second of lockstep passes in a few milliseconds.
+    #[must_use]
+    pub fn for_lockstep(mut self) -> Self {
+        self.arbiter.timeout = None;
+        self
+    }
+}
+
 impl Config for Parameters {
     fn read(root: &Table) -> Self {
         Self {

@@ -72,11 +72,11 @@ pub fn plant_text(paper: &str, mechanism: &Mechanism) -> String {
 ///
 /// * `mass` – of the robot (kg)
 /// * `leg` – length of its stretched leg from hip to ankle (m)
-pub(crate) fn servos(mass: f64, leg: f64) -> Servos {
+pub fn servos(mass: f64, leg: f64) -> Servos {
     let [mass, length] = [mass / PAPER_MASS, leg / LegReach::PAPER_LENGTH];
     let scaled = |servo: Servo| Servo {
         stiffness: rounded(servo.stiffness * mass * length),
-        damping: rounded(servo.damping * mass * length.powf(1.5)),
+        damping: rounded(servo.damping * mass * libm::pow(length, 1.5)),
     };
     Servos { legs_and_waist: scaled(PAPER_SERVOS.legs_and_waist), arms: scaled(PAPER_SERVOS.arms) }
 }
@@ -102,7 +102,7 @@ fn scaled(text: &str, scalings: &[Scaling], mechanism: &Mechanism) -> String {
 
 impl Scaling {
     fn factor(&self, [mass, length]: [f64; 2]) -> f64 {
-        mass.powf(self.mass) * length.powf(self.length)
+        libm::pow(mass, self.mass) * libm::pow(length, self.length)
     }
 }
 
@@ -127,7 +127,7 @@ fn rounded(value: f64) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return value;
     }
-    let grain = 10_f64.powi(DIGITS - 1 - value.abs().log10().floor() as i32);
+    let grain = 10_f64.powi(DIGITS - 1 - libm::log10(value.abs()).floor() as i32);
     (value * grain).round() / grain
 }
 

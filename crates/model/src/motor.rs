@@ -75,6 +75,17 @@ impl DcMotor {
 
     /// Torque at the joint for a voltage at standstill (N·m/V).
     pub fn torque_per_volt(&self) -> f64 {
-        self.gear_ratio * self.torque_constant / self.resistance
+        self.torque_per_ampere() / self.resistance
+    }
+
+    /// Torque at the joint for a current (N·m/A).
+    pub fn torque_per_ampere(&self) -> f64 {
+        self.gear_ratio * self.torque_constant
+    }
+
+    /// Voltage at the motor for a current (A) and a rate of the joint (rad/s): that of the resistance and the back-EMF
+    /// (V).
+    pub fn voltage(&self, current: f64, rate: f64) -> f64 {
+        self.resistance * current + self.torque_per_ampere() * rate
     }
 }

@@ -59,7 +59,7 @@ impl Sole {
     pub fn margin(&self, x: f64, y: f64) -> f64 {
         let outside_x = (x - self.ahead).max(-self.behind - x);
         let outside_y = (y - self.inside).max(-self.outside - y);
-        if outside_x > 0.0 && outside_y > 0.0 { -outside_x.hypot(outside_y) } else { -outside_x.max(outside_y) }
+        if outside_x > 0.0 && outside_y > 0.0 { -libm::hypot(outside_x, outside_y) } else { -outside_x.max(outside_y) }
     }
 }
 

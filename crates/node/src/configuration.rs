@@ -28,6 +28,8 @@ pub const CONTROLLER: &str = "controller.toml";
 pub const PLANT: &str = "plant.toml";
 /// Name of the file with the rate and the scheduling of both loops.
 pub const REALTIME: &str = "realtime.toml";
+/// The text that a folder without that file has: the machine does not depend on the robot.
+const DEFAULT_REALTIME: &str = include_str!("../../../config/realtime.toml");
 /// Name under which a recording holds the URDF that an external engine was given.
 pub const URDF: &str = "robot.urdf";
 /// Name under which a recording holds the plant's disturbances.
@@ -37,7 +39,8 @@ pub const DISTURBANCES: &str = "disturbances.toml";
 /// meanwhile.
 #[derive(Clone, Debug)]
 pub struct ConfigFiles {
-    /// Folder with mechanism.toml, nominal_half_step.csv, controller.toml, plant.toml and realtime.toml.
+    /// Folder with mechanism.toml, nominal_half_step.csv, controller.toml, plant.toml and, unless the defaults will do,
+    /// realtime.toml.
     pub folder: PathBuf,
     /// The mechanism's file, if not the folder's mechanism.toml.
     pub mechanism: Option<PathBuf>,
@@ -63,8 +66,7 @@ pub fn controller(
     from_stand: bool,
 ) -> Result<Controller, NodeError> {
     if clock == Clock::Lockstep {
-        // Operators live by wall-clock time, and half a second of lockstep passes in a few milliseconds.
-        parameters.arbiter.timeout = None;
+        parameters = parameters.for_lockstep();
     }
     let begin = if from_stand { Controller::standing } else { Controller::new };
     begin(&robot.mechanism, Arc::clone(&robot.nominal), &parameters, Start::default()).map_err(NodeError::configuration)
@@ -99,7 +101,12 @@ impl ConfigFiles {
         if let Some(text) = self.texts.borrow().get(path) {
             return Ok(text.clone());
         }
-        let text = config::bounded_text(path)?;
+        let text = match config::bounded_text(path) {
+            Err(reason) if reason.kind() == ErrorKind::NotFound && path == self.folder.join(REALTIME) => {
+                DEFAULT_REALTIME.to_owned()
+            }
+            read => read?,
+        };
         self.texts.borrow_mut().insert(path.to_owned(), text.clone());
         Ok(text)
     }

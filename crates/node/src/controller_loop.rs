@@ -1,7 +1,7 @@
 //! The controller's loop: wait, read, tick, write.
 
-use controller::{AdmissionWorker, Driver};
-use interface::{Fault, Intent, LatchedFault, Mode, PeriodTiming, Request, Source};
+use controller::{AdmissionWorker, Driver, DueRequest, RequestId};
+use interface::{Fault, Intent, LatchedFault, Mode, PeriodTiming, Request, SetpointHash, Source};
 use runtime::now_ns;
 use wire::{LatestWriter, MeasurementMessage, RequestMessage, SetpointMessage};
 
@@ -9,8 +9,7 @@ use crate::cycle::{Cycles, PeerSilent};
 use crate::entry::{ControllerEntry, ControllerEvent};
 use crate::overload::Overload;
 use crate::recorder::Recorder;
-use crate::request_bridge::RequestId;
-use crate::request_queue::{DueRequest, RequestQueue};
+use crate::request_queue::RequestQueue;
 use crate::timing::{TimingHistogram, TimingStats};
 
 /// Result of a run of the controller's loop.
@@ -20,6 +19,8 @@ pub struct ControllerRun {
     pub ticks: u64,
     /// Deadlines missed.
     pub missed: u64,
+    /// Of all setpoints.
+    pub setpoints: SetpointHash,
     /// Half-steps completed.
     pub half_steps: u64,
     /// The mode after the last tick; `None` if the loop never began.
@@ -71,6 +72,7 @@ pub fn run_controller<W: AdmissionWorker>(
 
         let setpoint = SetpointMessage::new(cycle.message.tick, time_ns, &step.tick.setpoint);
         setpoints.write(&setpoint);
+        run.setpoints.add(&step.tick.setpoint);
         let compute_ns = now_ns() - time_ns;
         histogram.add(cycle.late_ns, compute_ns);
 

@@ -10,7 +10,8 @@
 
 use std::time::Duration;
 
-use runtime::{Period, Rate, Wake, now_ns};
+use interface::Rate;
+use runtime::{Period, Wake, now_ns};
 use wire::{Latest, LatestReader};
 
 use crate::interrupt::Interrupt;

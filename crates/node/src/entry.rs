@@ -48,6 +48,10 @@ pub enum PlantEvent {
     Tick(PlantEntry),
     /// A push has begun before the tick of this number.
     Push(u64, Push),
+    /// Up to this tick the controller has sent nothing for long. It is told, and not recorded.
+    ControllerSilent(u64),
+    /// In this tick the controller was heard again.
+    ControllerBack(u64),
 }
 
 /// One tick of the plant's loop.

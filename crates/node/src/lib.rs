@@ -19,6 +19,7 @@ pub mod interrupt;
 mod nominal_check;
 mod overload;
 mod phase;
+pub mod physics;
 pub mod plant_loop;
 pub mod push_bridge;
 pub mod realtime;

@@ -4,7 +4,8 @@ use std::path::Path;
 use std::time::Duration;
 
 use config::{Config, Table};
-use runtime::{Granted, Rate, Scheduling};
+use interface::Rate;
+use runtime::{Granted, Scheduling};
 
 use crate::cycle::{Clock, CycleTiming};
 use crate::tell::tell;

@@ -4,9 +4,9 @@ use std::io::Write;
 use std::path::Path;
 use std::time::Duration;
 
-use interface::Fault;
+use interface::{Fault, Rate};
 use record::{Metadata, Provenance, RecordError, RecordingWriter, RunEvent};
-use runtime::{Journal, JournalEnd, Rate};
+use runtime::{Journal, JournalEnd};
 use wire::ReportPublisher;
 
 use crate::announcements::{Announced, Announcements};
@@ -62,13 +62,18 @@ pub fn of_controller(
     rate: Rate,
     to: Option<(&Path, Provenance)>,
     mut reports: ReportPublisher,
-    announced: Announced,
+    mut announcements: Announcements,
 ) -> Result<(Recorder<ControllerEvent>, RecorderThread), NodeError> {
     let mut is_first_failure = true;
-    let mut announcements = Announcements::new(announced);
     let take = move |writer: &mut RecordWriter, event: ControllerEvent| match event {
-        ControllerEvent::Request(number, message) => writer.write(number, &[RunEvent::Request(message)]),
-        ControllerEvent::Reply(number, message) => writer.write(number, &[RunEvent::Reply(message)]),
+        ControllerEvent::Request(number, message) => {
+            announcements.asked(number, &message);
+            writer.write(number, &[RunEvent::Request(message)]);
+        }
+        ControllerEvent::Reply(number, message) => {
+            announcements.answered(number, &message, rate.time(writer.tick)).into_iter().for_each(tell);
+            writer.write(number, &[RunEvent::Reply(message)]);
+        }
         ControllerEvent::Tick(entry) => {
             let mut report = entry.report();
             if writer.result.is_err() {
@@ -87,8 +92,8 @@ pub fn of_controller(
     open(clock, rate, to.map(|(folder, origin)| (folder, record::CONTROLLER_FILE, origin)), "controller", take)
 }
 
-/// Opens the plant's recorder. It tells when the controller begins and when the robot falls and, if `to` names a
-/// folder, writes each entry into the plant's recording there.
+/// Opens the plant's recorder. It tells when the controller begins, falls silent and comes back, and when the robot
+/// falls and, if `to` names a folder, writes each entry into the plant's recording there.
 ///
 /// # Errors
 /// The recording cannot be created, or the operating system refused a thread.
@@ -102,6 +107,14 @@ pub fn of_plant(
     let take = move |writer: &mut RecordWriter, event: PlantEvent| {
         let entry = match event {
             PlantEvent::Tick(entry) => entry,
+            PlantEvent::ControllerSilent(tick) | PlantEvent::ControllerBack(tick) => {
+                if announced == Announced::All {
+                    let is_back = matches!(event, PlantEvent::ControllerBack(_));
+                    let what = if is_back { "follows the controller again" } else { "hears the controller no more" };
+                    tell(format_args!("plant: {what}, at {:.2} s", rate.time(tick)));
+                }
+                return;
+            }
             PlantEvent::Push(tick, push) => {
                 writer.tick = tick;
                 return writer.write(tick as u32, &[push_event(tick, &push)]);

@@ -10,6 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+use controller::RequestId;
 use crossbeam::queue::ArrayQueue;
 use runtime::Scheduling;
 use wire::{MAX_OPERATORS, MAX_UNANSWERED, ReplyMessage, RequestMessage, RequestServer, Responder};
@@ -25,10 +26,6 @@ pub struct IncomingRequest {
     /// The request as the operator sent it, unchecked.
     pub message: RequestMessage,
 }
-
-/// Identifies a request within one run of the controller.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct RequestId(u32);
 
 /// Delivers requests to the loop and takes its replies.
 pub enum RequestBridge {
@@ -75,21 +72,6 @@ const POLL_INTERVAL: Duration = Duration::from_micros(100);
 const BACKLOG: usize = MAX_OPERATORS * MAX_UNANSWERED;
 /// Calls of [`RequestIo::receive`] between two checks for operators that have gone.
 const CHECK_INTERVAL: u32 = 100;
-
-impl RequestId {
-    /// Requests of the loop itself; their replies go nowhere.
-    pub const LOOP: Self = Self(u32::MAX);
-
-    /// The number in recordings: requests are counted from 1 in the order of their arrival.
-    pub const fn number(self) -> u32 {
-        self.0
-    }
-
-    /// Whether its request arrived before that of another one.
-    pub const fn is_before(self, other: Self) -> bool {
-        self.0 < other.0
-    }
-}
 
 impl RequestBridge {
     /// A bridge for a clock; at most `unanswered` requests will be without a reply at a time. A thread asks the system
@@ -186,7 +168,7 @@ impl RequestIo {
         Self {
             server,
             unanswered: HashMap::new(),
-            last: RequestId(0),
+            last: RequestId::default(),
             stops: VecDeque::new(),
             others: VecDeque::new(),
             abandoned: Vec::new(),
@@ -206,7 +188,7 @@ impl RequestIo {
                 // Only an operator that does not wait for its replies can send more. Dropping the answer tells it so.
                 continue;
             }
-            let id = RequestId(self.last.0 + 1);
+            let id = self.last.next();
             self.last = id;
             self.unanswered.insert(id, answer);
             received.push_back(IncomingRequest { id, message });

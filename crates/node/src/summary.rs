@@ -27,6 +27,9 @@ pub struct ControllerSummary {
     /// How well the loop kept time; `None` in lockstep.
     #[serde(rename = "kept_time")]
     pub timing: Option<TimingStats>,
+    /// Hash of all setpoints, which is the same for the same bits; `None` in real time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub setpoint_hash: Option<String>,
     /// Entries missing in the recording because its writer fell behind.
     pub log_gaps: u64,
     /// Why the run was not recorded to its end; `None` if it was.
@@ -75,7 +78,7 @@ pub struct PlantSummary {
 
 impl fmt::Display for ControllerSummary {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        let Self { ticks, half_steps, mode, fault, requests, deadline_misses, timing, log_gaps, record_error } = self;
+        let Self { ticks, half_steps, mode, fault, requests, deadline_misses, timing, log_gaps, .. } = self;
         let mode = if mode.is_empty() { "never started" } else { mode };
         write!(out, "{}, {}, {mode}", counted(*ticks, "tick"), counted(*half_steps, "half-step"))?;
         if let Some(FaultSummary { fault, time_s }) = fault {
@@ -84,7 +87,8 @@ impl fmt::Display for ControllerSummary {
         let (misses, gaps) = (counted(*deadline_misses, "deadline"), counted(*log_gaps, "report"));
         write!(out, "; {requests}; {misses} missed, {gaps} dropped")?;
         timing.map_or(Ok(()), |timing| write!(out, "; {timing}"))?;
-        record_error.as_ref().map_or(Ok(()), |error| write!(out, "\nnot recorded to the end: {error}"))
+        self.setpoint_hash.as_ref().map_or(Ok(()), |hash| write!(out, "; setpoints {hash}"))?;
+        self.record_error.as_ref().map_or(Ok(()), |error| write!(out, "\nnot recorded to the end: {error}"))
     }
 }
 
@@ -131,13 +135,15 @@ mod tests {
             requests: Tally::default(),
             deadline_misses: 1,
             timing: None,
+            setpoint_hash: Some("0x0123456789abcdef".to_owned()),
             log_gaps: 0,
             record_error: None,
         };
         assert_eq!(
             summary.to_string(),
             "9000 ticks, 1 half-step, faulted (fault at 3.30 s: no valid measurement has arrived for too long); \
-             requests: 0 accepted, 0 limited, 0 refused; 1 deadline missed, 0 reports dropped"
+             requests: 0 accepted, 0 limited, 0 refused; 1 deadline missed, 0 reports dropped; \
+             setpoints 0x0123456789abcdef"
         );
         let json = serde_json::to_value(&summary).unwrap();
         assert_eq!(json["fault"]["time_s"], 3.3);

@@ -1,14 +1,21 @@
-//! Messages to the person who started a process, on stderr.
+//! Messages to the person who started a process.
 //!
-//! Nobody may read them: the pipe is closed, the disk full. A message that cannot be written is lost, and nothing else
-//! happens; `eprintln!` would panic.
+//! They are events of `tracing` of their own target: the program decides what becomes of them. `halfstep` writes them
+//! to stderr, or nowhere with `--quiet`. Loops never tell anything: the threads beside them do.
 
 use std::fmt::Display;
-use std::io::Write;
 
-/// Writes a line to stderr, or loses it.
+use tracing::Level;
+
+/// The target of all messages.
+pub const TARGET: &str = "halfstep";
+
+/// Tells something.
 pub fn tell(text: impl Display) {
-    // In one piece, so that lines of several processes do not mix.
-    let line = format!("{text}\n");
-    let _ = std::io::stderr().lock().write_all(line.as_bytes());
+    tracing::info!(target: TARGET, "{text}");
+}
+
+/// Whether nobody wants to be told anything.
+pub fn is_quiet() -> bool {
+    !tracing::enabled!(target: TARGET, Level::INFO)
 }

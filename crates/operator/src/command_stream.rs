@@ -7,12 +7,12 @@
 
 use std::time::Duration;
 
-use interface::{COMMAND_TIMEOUT_MIN, Lifetime, Reply, Request, Source, Verdict};
-use runtime::{Rate, now_ns};
+use interface::{COMMAND_TIMEOUT_MIN, Lifetime, Rate, Reply, Request, Source, Verdict};
+use runtime::now_ns;
 use wire::{Instance, ObserverPorts, OperatorPorts, PendingReply, RequestError};
 
 use crate::OperatorError;
-use crate::script::TimedRequest;
+use dialogue::script::TimedRequest;
 
 /// A stream of commands to a controller that runs in another process.
 pub struct CommandStream {

@@ -3,14 +3,13 @@
 //! These requests stay in effect until changed: all of them are on their way before the first is due, so that no
 //! heartbeat is needed, and in lockstep the walk depends on nothing but its inputs.
 
-use interface::{Reply, Request};
+use interface::{Rate, Reply, Request};
 use std::collections::VecDeque;
 
-use runtime::Rate;
 use wire::{OperatorPorts, PendingReply, ReplyMessage, RequestError, RequestMessage};
 
 use crate::OperatorError;
-use crate::script::TimedRequest;
+use dialogue::script::TimedRequest;
 
 /// Sends requests with the tick at which they are due, as many ahead as may be without a reply at a time.
 pub struct ScriptRunner {

@@ -7,6 +7,7 @@ mod paper_lean;
 mod picture;
 mod reading;
 mod scenario;
+mod search;
 mod steady_half_step;
 mod table;
 
@@ -17,5 +18,9 @@ pub use paper_lean::{LeanAt, PaperLean};
 pub use picture::paper_figure;
 pub use reading::{RAMPS, Reading};
 pub use scenario::{PaperVerdict, Scenario};
+pub use search::{
+    Candidate, FileText, FoundFiles, Freedom, OPEN_NUMBERS, Open, OpenNumber, SearchBase, SearchError, SearchOptions,
+    SearchReport, search,
+};
 pub use steady_half_step::{Footing, SteadyHalfStep};
 pub use table::{TableRow, summary, table};

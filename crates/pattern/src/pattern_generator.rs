@@ -8,7 +8,7 @@ mod tests;
 
 use std::sync::Arc;
 
-use gait::{RangeCheck, Walk};
+use gait::{GaitParameters, RangeCheck, Robot, Start, Walk, WalkError};
 use interface::{Command, GaitChange, HalfStep, WalkPose, WalkVelocity};
 use model::{Joint, Mechanism, Motion};
 use nalgebra::Vector2;
@@ -60,6 +60,15 @@ impl PatternGenerator {
         let middle = footprint.footprint.point_to_walk(footprint.lift_off.position.xy() / 2.0);
         let posture = WholeBodyIk::new(&model, &nominal).solve(&model, &feet.task(&model, middle));
         Self::begin(model, feet, &Motion::at_rest(posture.unwrap_or(nominal)))
+    }
+
+    /// The stand from which a robot's walk is started, as its joints are.
+    ///
+    /// # Errors
+    /// The robot cannot walk by its half-step.
+    pub fn standing_motion(robot: &Robot, gait: &GaitParameters) -> Result<Motion, WalkError> {
+        let walk = Walk::new(robot.nominal.clone(), &robot.mechanism, gait, Start::default())?;
+        Ok(Self::standing(&robot.mechanism, walk).physical_motion())
     }
 
     /// Begins with a motion in support coordinates.

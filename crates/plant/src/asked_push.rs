@@ -25,7 +25,7 @@ impl Plant {
         // As the trunk faces: turned about the vertical only.
         let trunk = self.robot.kinematics(&self.tree).link_to_world(Mechanism::TRUNK).rotation;
         let ahead = trunk * Vector3::x();
-        let facing = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), ahead.y.atan2(ahead.x));
+        let facing = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), dynamics::atan2(ahead.y, ahead.x));
         let push = Push { link, impulse: facing * impulse, start: self.time(), duration };
         if self.disturbances.add(push) { Ok(push) } else { Err(PushOutcome::TooMany) }
     }

@@ -78,7 +78,7 @@ impl Drive {
         PerJoint::from_fn(|joint| {
             // The current of a mere source of torque is unknown.
             let dc = self.motors[joint].as_ref().and_then(Motor::dc);
-            dc.map_or(0.0, |motor| torques[joint] / (motor.gear_ratio * motor.torque_constant))
+            dc.map_or(0.0, |motor| torques[joint] / motor.torque_per_ampere())
         })
     }
 }

@@ -6,7 +6,8 @@ use model::{JointVector, PerJoint, Wrench};
 use nalgebra::{UnitQuaternion, Vector3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
+
+use crate::normal_noise::NormalNoise;
 
 /// How the sensors err. Standard deviations of white noise per sample; all zero for perfect sensors.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +45,7 @@ const ACCELEROMETER_STREAM: u64 = 2;
 #[derive(Clone, Debug)]
 pub struct Sensors {
     parameters: SensorParameters,
+    normal: NormalNoise,
     noise: ChaCha8Rng,
     /// Of the accelerometer: another stream, so that it leaves the noise of the others as it is.
     accelerometer_noise: ChaCha8Rng,
@@ -118,7 +120,14 @@ impl Sensors {
         accelerometer_noise.set_stream(ACCELEROMETER_STREAM);
         let [roll, pitch, yaw] = parameters.mounting.into();
         let mounting = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
-        Self { parameters, noise, accelerometer_noise, mounting, underway: heapless::Deque::new() }
+        Self {
+            parameters,
+            normal: NormalNoise::new(),
+            noise,
+            accelerometer_noise,
+            mounting,
+            underway: heapless::Deque::new(),
+        }
     }
 
     /// Takes the true values of this control period, and returns the sample that arrives in it: that of the period
@@ -160,7 +169,9 @@ impl Sensors {
                 + self.vector(parameters.angular_rate_noise),
             currents: self.noisy_joints(&truth.currents, parameters.current_noise),
             specific_force: self.mounting.inverse() * truth.specific_force
-                + Vector3::from_fn(|_, _| normal(&mut self.accelerometer_noise, parameters.specific_force_noise)),
+                + Vector3::from_fn(|_, _| {
+                    deviated(&self.normal, &mut self.accelerometer_noise, parameters.specific_force_noise)
+                }),
             missing: truth.missing,
         }
     }
@@ -174,15 +185,11 @@ impl Sensors {
     }
 
     fn normal(&mut self, deviation: f64) -> f64 {
-        normal(&mut self.noise, deviation)
+        deviated(&self.normal, &mut self.noise, deviation)
     }
 }
 
 /// White noise of this standard deviation.
-fn normal(noise: &mut ChaCha8Rng, deviation: f64) -> f64 {
-    if deviation == 0.0 {
-        return 0.0;
-    }
-    let normal: f64 = StandardNormal.sample(noise);
-    deviation * normal
+fn deviated(normal: &NormalNoise, random: &mut ChaCha8Rng, deviation: f64) -> f64 {
+    if deviation == 0.0 { 0.0 } else { deviation * normal.draw(random) }
 }

@@ -34,7 +34,7 @@ impl Slope {
         if *self == Self::default() {
             return Vector3::z();
         }
-        let (x, y) = (self.ahead.sin(), self.left.sin());
+        let (x, y) = (libm::sin(self.ahead), libm::sin(self.left));
         Vector3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt())
     }
 

@@ -1,6 +1,6 @@
 //! One control period of the simulated robot.
 
-use dynamics::{ArticulatedBody, Tree};
+use dynamics::{ArticulatedBody, Tree, atan2};
 use interface::{Measurement, SensorGroups, Setpoint};
 use model::{GRAVITY, Joint, JointVector, Mechanism, Motion, Side, Sole, Wrench};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -58,10 +58,8 @@ impl Plant {
         let held = HeldMotion::undeflected(tree.held_count());
         let held_drives = HeldDrives::new(&robot, parameters.servo);
         let mechanism = robot.mechanism;
-        let weight = (tree.mass + parameters.payload.mass) * GRAVITY;
-        let sunk_in = weight / (Sole::CORNERS as f64 * parameters.contact.stiffness);
         let mut plant = Self {
-            robot: RobotState { held, ..RobotState::on_right_foot(start, -sunk_in) },
+            robot: RobotState { held, ..RobotState::on_right_foot(start, 0.0) },
             disturbances: Disturbances::default(),
             floor: parameters.ground(seed),
             contact: GroundContact::new(&mechanism),
@@ -82,8 +80,22 @@ impl Plant {
             tree,
         };
         plant.body.gravity = parameters.slope.gravity();
-        plant.ground[Side::Right.index()].force = parameters.slope.up() * weight;
+        plant.place(start);
         plant
+    }
+
+    /// Puts the robot back to where it began, on its right sole with the posture and rates of `motion`: somebody has
+    /// lifted it. Time goes on.
+    pub fn place(&mut self, motion: &Motion) {
+        let weight = (self.tree.mass + self.parameters.payload.mass) * GRAVITY;
+        let sunk_in = weight / (Sole::CORNERS as f64 * self.parameters.contact.stiffness);
+        let held = HeldMotion::undeflected(self.tree.held_count());
+        self.robot = RobotState { held, ..RobotState::on_right_foot(motion, -sunk_in) };
+        self.contact = GroundContact::new(&self.mechanism);
+        self.ground = [Wrench::ZERO; 2];
+        self.ground[Side::Right.index()].force = self.parameters.slope.up() * weight;
+        self.motor_torques = JointVector::ZERO;
+        self.trunk_velocity = None;
     }
 
     /// Advances by one control period towards a setpoint, and returns the measurement at its end.
@@ -195,8 +207,8 @@ impl Plant {
         let sole = kinematics.sole_to_world(&self.mechanism, support);
         let up = sole.rotation.inverse() * self.floor.normal(sole.translation.vector.xy());
         let mut angles = self.robot.angles;
-        angles[Joint::FootRoll] = up.y.atan2(up.z);
-        angles[Joint::FootPitch] = (-up.x).atan2(up.z);
+        angles[Joint::FootRoll] = atan2(up.y, up.z);
+        angles[Joint::FootPitch] = atan2(-up.x, up.z);
 
         let trunk_to_world = kinematics.link_to_world(Mechanism::TRUNK).rotation;
         let (angular_rate, trunk_velocity) = self.robot.link_velocity(

@@ -56,7 +56,7 @@ impl Plant {
             zmp: zmp(&total).map(|point| point + base.xy()),
             floor_height,
             standing_height: self.standing_height,
-            trunk_tilt: trunk_axis.dot(&self.parameters.slope.up()).clamp(-1.0, 1.0).acos(),
+            trunk_tilt: libm::acos(trunk_axis.dot(&self.parameters.slope.up()).clamp(-1.0, 1.0)),
         }
     }
 

@@ -4,12 +4,10 @@
 
 mod journal;
 mod period;
-mod rate;
 mod scheduling;
 mod system;
 
 pub use journal::{Journal, JournalEnd};
 pub use period::{Period, Wake, now_ns};
-pub use rate::Rate;
 pub use scheduling::{Granted, Refusal, Scheduling, keep_off};
 pub use system::Usage;

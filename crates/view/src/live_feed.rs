@@ -4,14 +4,12 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use interface::Rate;
 use model::Mechanism;
-use runtime::{Rate, now_ns};
+use runtime::now_ns;
+use scene::{FrameAssembler, RobotDrawing, ToPage};
 use tokio::sync::watch;
 use wire::{ConnectError, Instance, MeasurementMessage, SpectatorPorts};
-
-use crate::frame_assembler::FrameAssembler;
-use crate::message::ToPage;
-use crate::robot_drawing::RobotDrawing;
 
 /// Time between two looks at the reports, of which the last 64 are kept: in lockstep a second passes in a few
 /// hundredths of one.
@@ -90,7 +88,9 @@ impl LiveFeed {
             }
             // A report that cannot be received is a lost one.
             while let Ok(Some(report)) = ports.reports.next_report() {
-                assembler.take(&report);
+                if let Ok(checked) = report.checked() {
+                    assembler.take(&report.timing(), &checked);
+                }
                 heard_ns = now_ns();
                 if !std::mem::replace(&mut is_heard, true) {
                     let drawing = RobotDrawing::new(robot);

@@ -3,10 +3,10 @@
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use scene::{AskedPush, ToPage};
 use tokio::sync::broadcast;
 
 use crate::live_feed::LiveTexts;
-use crate::message::{AskedPush, ToPage};
 use crate::teleoperation::Order;
 
 /// Answers that a slow page may be behind before it misses some.

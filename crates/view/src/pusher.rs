@@ -5,11 +5,11 @@ use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::time::Duration;
 
-use interface::{PushOutcome, PushReply};
+use dialogue::push_text::push_text;
+use interface::PushReply;
+use scene::{AskedPush, ToPage};
 use tokio::sync::broadcast;
 use wire::{Instance, PushClient, PushError, PushRequestMessage};
-
-use crate::message::{AskedPush, ToPage};
 
 /// How long a push may take to be answered.
 const TIMEOUT: Duration = Duration::from_secs(2);
@@ -38,12 +38,7 @@ impl Pusher {
     fn push(&self, asked: &AskedPush) -> (&'static str, String) {
         match self.ask(asked) {
             Err(error) => ("refused", error.to_string()),
-            Ok(PushReply { outcome: PushOutcome::Begun, start }) => {
-                let [ahead, left, up] = asked.impulse;
-                let push = format!("push of {ahead:.1} N·s ahead, {left:.1} left, {up:.1} up");
-                ("push", format!("{push}, from {start:.3} s of the plant on"))
-            }
-            Ok(PushReply { outcome, .. }) => ("refused", outcome.text().to_owned()),
+            Ok(reply) => push_text(&asked.impulse, &reply),
         }
     }
 

@@ -2,12 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use dialogue::reply_text::reply_text;
 use interface::{Request, Verdict};
-use operator::reply_text::reply_text;
+use scene::{RunNote, rounded};
 use wire::{ReplyMessage, RequestMessage};
-
-use crate::message::RunNote;
-use crate::rounded::rounded;
 
 /// Pairs requests with their replies.
 #[derive(Default)]

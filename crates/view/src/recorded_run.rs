@@ -3,17 +3,14 @@
 use std::path::Path;
 
 use config::Config;
+use interface::Rate;
 use model::{Joint, Mechanism};
 use record::{PushMessage, Recording, RunEvent, files_of, provenance_of};
-use runtime::Rate;
+use scene::{FrameAssembler, RobotDrawing, RunNote, ViewFrame};
 
 use crate::ViewError;
 use crate::fall_watch::FallWatch;
-use crate::frame_assembler::FrameAssembler;
-use crate::message::RunNote;
 use crate::recorded_requests::RecordedRequests;
-use crate::robot_drawing::RobotDrawing;
-use crate::view_frame::ViewFrame;
 
 /// Time between two frames (s).
 const INTERVAL: f64 = 0.02;
@@ -62,7 +59,9 @@ impl RecordedRun {
                     RunEvent::Measurement(message) => measurement = Some(message.measurement()),
                     RunEvent::Report(report) => {
                         fall.take(event.time(), &report);
-                        assembler.take(&report);
+                        if let Ok(checked) = report.checked() {
+                            assembler.take(&report.timing(), &checked);
+                        }
                         if let Some(measurement) = &measurement
                             && frames.is_due(event.time())
                         {
@@ -142,7 +141,38 @@ impl Frames {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tests::frame_at;
+
+    /// A frame of a robot that stands.
+    fn frame_at(t: f64) -> ViewFrame {
+        ViewFrame {
+            t,
+            mode: "standing",
+            support: 0,
+            half_step: 0,
+            progress: 0.0,
+            gait: [1.0, 0.0, 0.0, 0.0],
+            base: [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+            angles: [0.0; Joint::COUNT],
+            zmp: None,
+            zmp_planned: None,
+            dcm: None,
+            dcm_planned: None,
+            margin: None,
+            lean: [0.0; 2],
+            added: None,
+            pose: [0.0; 3],
+            velocity: [0.0; 3],
+            support_sole: [0.0; 3],
+            landings: [[0.0; 3]; 2],
+            destination: None,
+            loads: [0.0; 2],
+            capturability: "",
+            faults: Vec::new(),
+            missed: 0,
+            compute_us: 0.0,
+            jitter_us: 0.0,
+        }
+    }
 
     #[test]
     fn a_long_run_is_thinned_to_what_a_page_can_hold() {

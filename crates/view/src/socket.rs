@@ -6,11 +6,11 @@
 use std::sync::Arc;
 
 use axum::extract::ws::{Message, WebSocket};
+use scene::{FromPage, ToPage};
 use tokio::sync::broadcast::error::RecvError;
 
 use crate::RecordedRun;
 use crate::live_pages::{HANDOVER, LivePages};
-use crate::message::{FromPage, ToPage};
 use crate::teleoperation::Order;
 
 /// Frames of a recorded run in a message.

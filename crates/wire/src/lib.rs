@@ -95,7 +95,7 @@ pub use ports::{ControllerPorts, ObserverPorts, OperatorPorts, PlantPorts, Spect
 pub use push::{PushClient, PushResponder, PushServer};
 pub use report::{ReportPublisher, ReportSubscriber};
 pub use request::{MAX_OPERATORS, MAX_UNANSWERED, PendingReply, RequestClient, RequestServer, Responder};
-pub use running::running_instances;
+pub use running::{Participants, instances_in_use, running_instances};
 pub use urgent_socket::UrgentClient;
 
 /// Version of all layouts and meanings. Processes of different versions refuse to connect.

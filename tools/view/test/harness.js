@@ -135,3 +135,29 @@ export function untilShown(page, is) {
     return frame && is(frame) ? frame : null;
   }, is.toString());
 }
+
+/** The picture in the viewport as the browser has drawn it. */
+export const picture = (page) => page.evaluate(() => {
+  const { renderer } = window.halfstep.viewport;
+  window.halfstep.viewport.draw();
+  return renderer.domElement.toDataURL();
+});
+
+/** Pushes the robot's chest to the right of the picture with the mouse, and gives the label of the push. */
+export async function push(page) {
+  const [x, y] = await page.evaluate(() => {
+    const { robot } = window.halfstep.runs[0];
+    const { camera } = window.halfstep.viewport;
+    const chest = robot.joints[robot.drawing.trunk].node.getWorldPosition(robot.middle());
+    chest.z += 0.25 * robot.scale;
+    chest.project(camera);
+    return [((chest.x + 1) / 2) * innerWidth, ((1 - chest.y) / 2) * innerHeight];
+  });
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 30, y, { steps: 4 });
+  await page.mouse.move(x + 80, y, { steps: 4 });
+  const label = await page.textContent('#push-label');
+  await page.mouse.up();
+  return label;
+}

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, afterEach, before, test } from 'node:test';
-import { Browser, Workplace, shown, until, untilShown } from './harness.js';
+import { Browser, Workplace, picture, push, shown, until, untilShown } from './harness.js';
 
 /** The controller's command timeout while a page drives (s): of the simulated time, which passes faster here. */
 const AGE_LIMIT = 30;
@@ -27,13 +27,6 @@ after(async () => {
 });
 
 afterEach(() => browser.closePages());
-
-/** The picture in the viewport as the browser has drawn it. */
-const picture = (page) => page.evaluate(() => {
-  const { renderer } = window.halfstep.viewport;
-  window.halfstep.viewport.draw();
-  return renderer.domElement.toDataURL();
-});
 
 /** Angles of the joints as they are drawn: taken from the pose of each drawn body. */
 const drawnAngles = (page) => page.evaluate(() => {
@@ -124,24 +117,6 @@ test('a click on the floor is walked to', async () => {
   assert.ok(away < 0.05, `${away} m from the goal`);
 });
 
-/** Pushes the robot's chest to the right of the picture with the mouse. */
-async function push(page) {
-  const [x, y] = await page.evaluate(() => {
-    const { robot } = window.halfstep.runs[0];
-    const { camera } = window.halfstep.viewport;
-    const chest = robot.joints[robot.drawing.trunk].node.getWorldPosition(robot.middle());
-    chest.z += 0.25 * robot.scale;
-    chest.project(camera);
-    return [((chest.x + 1) / 2) * innerWidth, ((1 - chest.y) / 2) * innerHeight];
-  });
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  await page.mouse.move(x + 30, y, { steps: 4 });
-  await page.mouse.move(x + 80, y, { steps: 4 });
-  assert.match(await page.textContent('#push-label'), /^9\.\d N·s$/);
-  await page.mouse.up();
-}
-
 /** Pushes a robot that stands until the push is seen: between two frames half a second of it may pass in lockstep. */
 async function pushUntilSeen(page) {
   // When the last push began, as its answer says.
@@ -152,7 +127,7 @@ async function pushUntilSeen(page) {
   for (let isSeen = false; !isSeen;) {
     const calm = await untilShown(page, ({ mode }) => mode === 'standing');
     const last = await begun();
-    await push(page);
+    assert.match(await push(page), /^9\.\d N·s$/);
     await until(async () => {
       assert.equal(await page.locator('#answers .refused').count(), 0);
       return await begun() !== last;

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use dialogue::reply_text::ReplyJson;
 use interface::{DestinationProgress, Mode, Report};
 use node::interrupt::Interrupt;
 use node::tell::tell;
@@ -10,7 +11,7 @@ use wire::{ConnectError, Instance, ObserverPorts, OperatorPorts};
 
 use crate::error::CliError;
 use crate::output::{print_json, print_line};
-use crate::progress::goal_text;
+use crate::state_line::goal_text;
 use crate::status::Status;
 
 const POLL_INTERVAL: Duration = Duration::from_millis(10);
@@ -35,6 +36,16 @@ enum WalkEnd {
     Cancelled,
     Fallen,
     Faulted,
+    /// It goes on: this process was asked to end.
+    NotAwaited,
+}
+
+/// The reply, and how the walk that it granted has ended, as one JSON value.
+#[derive(Serialize)]
+struct ArrivalJson {
+    #[serde(flatten)]
+    reply: ReplyJson,
+    walk_end: WalkEndJson,
 }
 
 /// The end as JSON.
@@ -62,7 +73,8 @@ impl Arrival {
     /// Waits for the end of a walk that was granted.
     ///
     /// * `granted_ns` – when the reply had arrived: earlier reports may tell of another destination
-    pub(super) fn wait(mut self, granted_ns: u64, json: bool) -> Result<Status, CliError> {
+    /// * `reply` – printed with the end, as JSON; the end is printed as text without it
+    pub(super) fn wait(mut self, granted_ns: u64, reply: Option<ReplyJson>) -> Result<Status, CliError> {
         let mut followed = Followed::default();
         let (mut silent_polls, mut told_ns) = (0_u32, granted_ns);
         while !self.interrupt.is_raised() {
@@ -80,7 +92,7 @@ impl Arrival {
             }
             let report = message.checked().map_err(CliError::new)?;
             if let Some(end) = followed.hear(&report) {
-                return followed.conclude(end, json);
+                return followed.conclude(end, reply);
             }
             if let Some(progress) = followed.progress
                 && message.time_ns >= told_ns + TELL_INTERVAL_NS
@@ -89,8 +101,7 @@ impl Arrival {
                 tell(goal_text(&progress));
             }
         }
-        tell("no longer waited for: the robot walks on");
-        Ok(Status::Failure)
+        followed.conclude(WalkEnd::NotAwaited, reply)
     }
 
     fn require_controller(&self) -> Result<(), CliError> {
@@ -118,11 +129,12 @@ impl Followed {
         (progress.places_left == 0).then_some(WalkEnd::Arrived)
     }
 
-    fn conclude(&self, end: WalkEnd, json: bool) -> Result<Status, CliError> {
+    fn conclude(&self, end: WalkEnd, reply: Option<ReplyJson>) -> Result<Status, CliError> {
         let progress = self.progress.unwrap_or_default();
-        if json {
+        if let Some(reply) = reply {
             let (distance_m, turn_deg) = (progress.distance, progress.turn.to_degrees());
-            print_json(&WalkEndJson { destination: end, distance_m, turn_deg })?;
+            let walk_end = WalkEndJson { destination: end, distance_m, turn_deg };
+            print_json(&ArrivalJson { reply, walk_end })?;
         } else {
             print_line(self.text(end))?;
         }
@@ -136,42 +148,19 @@ impl Followed {
             WalkEnd::Cancelled => format!("cancelled by another request, or by the end of its stream{left}"),
             WalkEnd::Fallen => format!("the robot has fallen{left}"),
             WalkEnd::Faulted => format!("a fault is latched{left}"),
+            WalkEnd::NotAwaited => format!("no longer waited for, the robot walks on{left}"),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use interface::{Faults, HalfStep, Odometry};
-    use model::Side;
-
     use super::*;
+    use crate::state_line::tests::report as report_in;
 
     fn report(mode: Mode, destination: Option<(u32, f64)>) -> Report {
-        Report {
-            mode,
-            half_step: HalfStep::first(Side::Right),
-            speed: 1.0,
-            turn: 0.0,
-            extension: 0.0,
-            sidestep: 0.0,
-            zmp_in_support: None,
-            zmp_planned: None,
-            margin: None,
-            lean: Default::default(),
-            added: None,
-            com_planned: None,
-            com_measured: None,
-            odometry: Odometry::default(),
-            destination: destination.map(|(places_left, distance)| DestinationProgress {
-                places_left,
-                distance,
-                turn: 0.0,
-            }),
-            capturability: None,
-            estimate: interface::StateEstimate::default(),
-            faults: Faults::default(),
-        }
+        let progress = |(places_left, distance)| DestinationProgress { places_left, distance, turn: 0.0 };
+        Report { destination: destination.map(progress), ..report_in(mode) }
     }
 
     #[test]

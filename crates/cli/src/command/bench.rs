@@ -16,6 +16,7 @@ use clap::Subcommand;
 use gait::Robot;
 use node::configuration::Errors;
 use node::realtime::RealtimeParameters;
+use node::tell::is_quiet;
 use plant::Plant;
 use runtime::Scheduling;
 use wire::{Instance, InstanceName};
@@ -23,9 +24,12 @@ use wire::{Instance, InstanceName};
 use super::config_options::ConfigOptions;
 use super::options::duration;
 use crate::error::CliError;
-use crate::output::{print, print_line, write_files};
+use crate::messages::complain;
+use crate::output::{print, print_line};
+use crate::output_folder::OutputFolder;
 use crate::process::Process;
 use crate::status::Status;
+use crate::work_progress::WorkProgress;
 
 /// Benchmark on this machine, against reference implementations in the same run
 #[derive(Clone, Debug, clap::Args)]
@@ -37,6 +41,9 @@ pub(super) struct BenchArgs {
     /// Also write bench.html, with histograms, and bench.json into this folder
     #[arg(long, value_name = "DIR", global = true)]
     out: Option<PathBuf>,
+    /// Replace an earlier benchmark in the folder
+    #[arg(long, global = true)]
+    force: bool,
     #[command(subcommand)]
     what: What,
 }
@@ -94,9 +101,14 @@ const TRIPS_AT_PACE: u64 = 500;
 /// Periods of the controller in lockstep.
 const FLAT_OUT: u64 = 20_000;
 
+/// Names of the files in the folder.
+const FILES: [&str; 2] = ["bench.html", "bench.json"];
+
 impl BenchArgs {
     pub(super) fn run(mut self, json: bool) -> Result<Status, CliError> {
         self.config.resolve()?;
+        let out = self.out.as_deref().map(|out| OutputFolder::open(out, self.force)).transpose()?;
+        out.as_ref().map_or(Ok(()), |out| out.require_none(&FILES))?;
         let report = match &self.what {
             What::Answer { instance, core, priority } => {
                 let scheduling = Scheduling { priority: *priority, ..awake_on(*core) };
@@ -107,13 +119,17 @@ impl BenchArgs {
             What::Latency { rounds, trips, requests } => self.latency(*rounds, *trips, *requests)?,
             What::Jitter { segments, segment } => self.jitter(*segments, *segment)?,
         };
+        // What took minutes is printed also if it cannot be written any more.
         print(json, &report)?;
-        if let Some(folder) = &self.out {
-            let text = serde_json::to_string_pretty(&report).map_err(CliError::new)? + "\n";
-            write_files(folder, &[("bench.html", bench_page(&report)), ("bench.json", text)])?;
-            if !json {
-                print_line(format_args!("bench.html and bench.json are in {}", folder.display()))?;
-            }
+        let Some(folder) = &out else { return Ok(Status::Success) };
+        let text = serde_json::to_string_pretty(&report).map_err(CliError::new)? + "\n";
+        let [page_file, json_file] = FILES;
+        if let Err(error) = folder.write(&[(page_file, bench_page(&report)), (json_file, text)]) {
+            complain(error);
+            return Ok(Status::Failure);
+        }
+        if !json {
+            print_line(format_args!("written to {}", folder.join(page_file).display()))?;
         }
         // A ratio that does not pass is reported; on a busy machine that is no failure.
         Ok(Status::Success)
@@ -132,7 +148,8 @@ impl BenchArgs {
             period: realtime.rate.period_s(),
             scheduling: Scheduling { core, lock_memory, ..Scheduling::default() },
         };
-        Ok(in_own_thread(|| compute(&options))??)
+        let progress = WorkProgress::new("bench compute", rounds.into());
+        Ok(in_own_thread(|| compute(&options, || progress.part_done()))??)
     }
 
     fn latency(&self, rounds: u32, trips: u64, requests: u32) -> Result<BenchReport, CliError> {
@@ -150,15 +167,19 @@ impl BenchArgs {
             command.args(priority.into_iter().flat_map(|priority| ["--priority".to_owned(), priority.to_string()]));
             Ok(command)
         };
-        let mut report = in_own_thread(|| exchange(&options, &instance, answering))??;
+        let progress = WorkProgress::new("bench latency, exchange", rounds.into());
+        let mut report = in_own_thread(|| exchange(&options, &instance, answering, || progress.part_done()))??;
+        drop(progress);
 
         let options =
             ControlLatencyOptions { rate: realtime.rate, requests, in_lockstep: FLAT_OUT, scheduling: scheduling[0] };
         let start = robot.nominal.at(0.0);
         let new_plant = || Plant::new(&robot.mechanism, &parameters, &start, realtime.rate.period_s(), 1);
+        let progress = WorkProgress::new("bench latency, controller in real time and in lockstep", 2);
         let in_realtime = self.with_controller(&realtime, &[], |instance| {
             control_latency::in_realtime(&options, instance, &robot.mechanism, &mut new_plant())
         })?;
+        progress.part_done();
         let in_lockstep = self.with_controller(&realtime, &["--lockstep"], |instance| {
             control_latency::in_lockstep(&options, instance, &robot.mechanism, &mut new_plant())
         })?;
@@ -172,14 +193,17 @@ impl BenchArgs {
         let Loaded { robot, plant: parameters, realtime, .. } = self.load()?;
         let [busy, core] = cores(&realtime)?;
         let spin = if realtime.spin.is_zero() { SPIN } else { realtime.spin };
-        let mut report = jitter(&JitterOptions {
+        let options = JitterOptions {
             segments,
             segment,
             period: realtime.rate.period(),
             spin,
             scheduling: Scheduling { core: Some(core), ..realtime.controller },
             busy_core: (busy != core).then_some(busy),
-        })?;
+        };
+        let progress = WorkProgress::new("bench jitter, loops", segments.into());
+        let mut report = jitter(&options, || progress.part_done())?;
+        drop(progress);
 
         let options =
             ObservedJitterOptions { rate: realtime.rate, loop_core: realtime.controller.core, segments, segment };
@@ -191,8 +215,10 @@ impl BenchArgs {
         };
         let start = robot.nominal.at(0.0);
         let new_plant = || Plant::new(&robot.mechanism, &parameters, &start, realtime.rate.period_s(), 1);
+        let progress = WorkProgress::new("bench jitter, controllers", segments.into());
+        let after = || progress.part_done();
         let (series, ratios) =
-            in_own_thread(|| observed_jitter(&options, &instance, controller, &robot.mechanism, new_plant))??;
+            in_own_thread(|| observed_jitter(&options, &instance, controller, &robot.mechanism, new_plant, after))??;
         report.series.extend(series);
         report.ratios.extend(ratios);
         Ok(report)
@@ -228,6 +254,7 @@ impl BenchArgs {
         let mut command = Command::new(std::env::current_exe()?);
         command.arg("controller").args(self.config.arguments());
         command.args(["--instance", instance.name().as_str(), "--parent", &std::process::id().to_string()]);
+        command.args(is_quiet().then_some("--quiet"));
         Ok(command)
     }
 }

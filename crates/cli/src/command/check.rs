@@ -6,11 +6,11 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use config::Config;
+use dialogue::script::{self, ScriptError};
 use dynamics::{Kinematics, Tree, zmp};
 use gait::Robot;
 use model::{JointVector, Mechanism, Side};
 use node::configuration::{ConfigFiles, Errors};
-use operator::script::{self, ScriptError};
 use paper::{Reading, Scenario};
 use plant::Disturbances;
 use serde::Serialize;

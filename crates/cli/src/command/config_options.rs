@@ -4,16 +4,17 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use node::configuration::{ConfigFiles, REALTIME};
+use robots::BuiltInRobot;
 
 use super::options::path_option;
-use crate::built_in_robots::BuiltInRobot;
 use crate::error::CliError;
+use crate::robot_folder::folder_of;
 
 /// Where the configuration lies.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct ConfigOptions {
-    /// Folder with mechanism.toml, nominal_half_step.csv, controller.toml, plant.toml and realtime.toml [default:
-    /// config where there is such a folder, else the paper's robot]
+    /// Folder with mechanism.toml, nominal_half_step.csv, controller.toml, plant.toml and, if need be, realtime.toml
+    /// [default: config where there is such a folder, else the paper's robot]
     #[arg(long, value_name = "DIR", conflicts_with = "robot")]
     config: Option<PathBuf>,
     /// A robot in the box instead of a folder: see `halfstep robots`
@@ -42,7 +43,7 @@ impl ConfigOptions {
                 None => Some(BuiltInRobot::of_the_paper()),
                 robot => robot,
             };
-            self.config = Some(in_box.map_or_else(|| Ok(PathBuf::from(DEFAULT)), |robot| robot.folder())?);
+            self.config = Some(in_box.map_or_else(|| Ok(PathBuf::from(DEFAULT)), |robot| folder_of(&robot))?);
         }
         Ok(())
     }

@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use controller::Driver;
-use interface::Mode;
+use dialogue::reply_text::reply_text;
+use interface::{Mode, Rate};
 use node::admission_worker::ClockedWorker;
-use node::announcements::Announced;
+use node::announcements::{Announced, Announcements};
 use node::configuration::{self, CONTROLLER, ConfigFiles, Errors};
 use node::controller_loop::run_controller;
 use node::cycle::{Clock, Cycles};
@@ -16,7 +17,6 @@ use node::summary::{ControllerSummary, FaultSummary};
 use node::tell::tell;
 use node::{realtime, recorder};
 use record::{Metadata, Provenance};
-use runtime::Rate;
 use wire::ControllerPorts;
 
 use super::config_options::ConfigOptions;
@@ -73,7 +73,7 @@ impl ControllerArgs {
             rate,
             self.recorded(&files, rate, fingerprint)?,
             reports,
-            self.child.announced(),
+            Announcements::new(self.child.announced(), self.instance.instance.as_str(), reply_text),
         )?;
 
         self.child.bind_run()?;
@@ -103,6 +103,7 @@ impl ControllerArgs {
             requests,
             deadline_misses: run.missed,
             timing: (clock == Clock::Realtime).then_some(run.timing),
+            setpoint_hash: (clock == Clock::Lockstep).then(|| run.setpoints.to_string()),
             log_gaps: recorded.lost,
             record_error: recorded.error.map(|error| error.to_string()),
         };

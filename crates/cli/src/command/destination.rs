@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+use dialogue::place_json::read_footsteps;
 use interface::{Destination, GaitChange, PlaceFrame, PlaceList, Places, Request, Source, Waypoint};
-use operator::place_json::read_footsteps;
 
 use super::options::number;
 use crate::error::CliError;
@@ -82,10 +82,10 @@ impl FootstepsArgs {
             ("stdin", Box::new(io::stdin()))
         } else {
             let path = Path::new(&self.file);
-            (self.file.as_str(), Box::new(File::open(path).map_err(CliError::file(path))?))
+            (self.file.as_str(), Box::new(File::open(path).map_err(CliError::input_file(path))?))
         };
         let mut text = String::new();
-        source.take(LONGEST).read_to_string(&mut text).map_err(CliError::file(Path::new(name)))?;
+        source.take(LONGEST).read_to_string(&mut text).map_err(CliError::input_file(Path::new(name)))?;
         Ok(self.way.request(Some(footsteps(name, &text)?)))
     }
 }

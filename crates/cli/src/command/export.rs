@@ -14,6 +14,7 @@ use wire::python::python_messages;
 
 use crate::error::CliError;
 use crate::output::{print_json, print_line};
+use crate::output_folder::OutputFolder;
 use crate::status::Status;
 
 /// Export the robot or the messages for other programs
@@ -30,9 +31,8 @@ enum Format {
         /// Robot description
         #[arg(long, value_name = "FILE", default_value = "config/mechanism.toml")]
         mechanism: PathBuf,
-        /// Output file [default: stdout]
-        #[arg(long, value_name = "FILE")]
-        out: Option<PathBuf>,
+        #[command(flatten)]
+        to: ExportFile,
     },
     /// The robot as MJCF for MuJoCo, with floor and torque motors
     Mjcf {
@@ -45,16 +45,25 @@ enum Format {
         /// Real-time parameters; they set the control rate
         #[arg(long, value_name = "FILE", default_value = "config/realtime.toml")]
         realtime: PathBuf,
-        /// Output file [default: stdout]
-        #[arg(long, value_name = "FILE")]
-        out: Option<PathBuf>,
+        #[command(flatten)]
+        to: ExportFile,
     },
     /// The shared-memory messages as a Python module
     Python {
-        /// Output file [default: stdout]
-        #[arg(long, value_name = "FILE")]
-        out: Option<PathBuf>,
+        #[command(flatten)]
+        to: ExportFile,
     },
+}
+
+/// Where the text goes.
+#[derive(Clone, Debug, clap::Args)]
+struct ExportFile {
+    /// Output file [default: stdout]
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Replace another file
+    #[arg(long)]
+    force: bool,
 }
 
 /// What was exported, as JSON: the text, or the file that holds it.
@@ -68,23 +77,24 @@ struct Exported {
 
 impl ExportArgs {
     pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
-        let (text, out) = match self.format {
-            Format::Urdf { mechanism, out } => {
+        let (text, ExportFile { out, force }) = match self.format {
+            Format::Urdf { mechanism, to } => {
                 let mechanism = Mechanism::load(&mechanism).map_err(CliError::bad_input)?;
-                (urdf_text(&mechanism).map_err(CliError::new)?, out)
+                (urdf_text(&mechanism).map_err(CliError::new)?, to)
             }
-            Format::Mjcf { mechanism, plant, realtime, out } => {
+            Format::Mjcf { mechanism, plant, realtime, to } => {
                 let mut errors = Errors::default();
                 let mechanism = errors.note(Mechanism::load(&mechanism));
                 let parameters = errors.note(plant::PlantParameters::load(&plant));
                 let realtime = errors.note(RealtimeParameters::load(&realtime));
                 let ((mechanism, parameters), realtime) = errors.finish(mechanism.zip(parameters).zip(realtime))?;
-                (mjcf_text(&mechanism, &parameters, realtime.rate.period_s()), out)
+                (mjcf_text(&mechanism, &parameters, realtime.rate.period_s()), to)
             }
-            Format::Python { out } => (python_messages(), out),
+            Format::Python { to } => (python_messages(), to),
         };
         if let Some(file) = &out {
-            std::fs::write(file, &text).map_err(CliError::file(file))?;
+            let (folder, name) = OutputFolder::of_file(file, force)?;
+            folder.write(&[(name, text.clone())])?;
         }
         match (out, json) {
             (None, false) => print_line(text.trim_end())?,

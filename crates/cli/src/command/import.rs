@@ -1,15 +1,17 @@
 //! `halfstep import`: another biped from its URDF, as a complete configuration folder.
 
-use std::fs;
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 use interchange::import::{JointRole, NamedText, print_map};
 use model::Side;
+use node::tell::tell;
+use robots::{ImportedRobot, URDF};
 use serde::Serialize;
 
 use crate::error::CliError;
-use crate::imported_robot::{ImportedRobot, URDF};
-use crate::output::{print_json, print_line, quoted, write_files};
+use crate::output::{print, print_json, print_line, quoted};
+use crate::output_folder::OutputFolder;
 use crate::status::Status;
 
 /// Import a biped from its URDF into a configuration folder from which it walks
@@ -29,6 +31,18 @@ pub(super) struct ImportArgs {
     /// Replace another robot in the folder
     #[arg(long)]
     force: bool,
+}
+
+/// The map with all roles.
+#[derive(Debug, Serialize)]
+struct PrintedMap<'a> {
+    map: &'a str,
+}
+
+impl fmt::Display for PrintedMap<'_> {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        out.write_str(self.map)
+    }
 }
 
 /// Result of the import.
@@ -60,18 +74,18 @@ impl ImportArgs {
         let urdf_text = NamedText { text: &urdf, file: &urdf_file };
         let map_text = map.as_deref().map(|text| NamedText { text, file: &map_file });
         if self.print_map {
-            print_line(print_map(urdf_text, map_text)?.trim_end())?;
+            let map = print_map(urdf_text, map_text)?;
+            print(json, &PrintedMap { map: map.trim_end() })?;
             return Ok(Status::Success);
         }
         let Some(out) = self.out else { return Err(CliError::bad_input("--out must name a folder")) };
 
+        let folder = OutputFolder::open(&out, self.force)?;
+        tell(format_args!("import: looks for a half-step that suits the robot of {urdf_file}"));
         let robot = ImportedRobot::new(urdf_text, map_text)?;
         let mut files = robot.files.to_vec();
         files.push((URDF, urdf.clone()));
-        if !self.force {
-            keep_another(&out, &files)?;
-        }
-        write_files(&out, &files)?;
+        folder.write(&files)?;
 
         let written = files.iter().map(|(name, _)| out.join(name)).collect();
         let report = ImportReport::new(robot, written, &out);
@@ -90,21 +104,6 @@ fn read(file: &Path) -> Result<String, CliError> {
 
 fn name_of(file: &Path) -> String {
     file.display().to_string()
-}
-
-/// Refuses to replace the files of another robot.
-fn keep_another(folder: &Path, files: &[(&str, String)]) -> Result<(), CliError> {
-    let other = files.iter().map(|(name, text)| (folder.join(name), text)).find(|(file, text)| {
-        // What cannot be read cannot be replaced either: writing says why.
-        fs::read(file).is_ok_and(|existing| existing != text.as_bytes())
-    });
-    match other {
-        Some((file, _)) => Err(CliError::bad_input(format!(
-            "{}: holds something else; name another folder with --out, or replace it with --force",
-            file.display()
-        ))),
-        None => Ok(()),
-    }
 }
 
 impl ImportReport {

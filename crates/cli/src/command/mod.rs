@@ -7,20 +7,25 @@ mod config_options;
 mod connect;
 mod controller;
 mod destination;
+mod doctor;
 mod engine;
 mod export;
 mod import;
 mod options;
 mod paper;
+mod paper_search;
 mod plant;
 mod plot;
 mod replay;
 mod robots;
 mod send;
+mod status;
 mod stream;
 mod synthesize;
+mod teleop;
 mod view;
 mod walk;
+mod watch;
 
 use clap::{Parser, Subcommand};
 
@@ -37,6 +42,9 @@ pub(crate) struct Halfstep {
     // Left out, its place in each help is the number of subcommands.
     #[arg(long, global = true, display_order = 14)]
     json: bool,
+    /// Tell nothing on stderr but errors: no progress, no modes, no advice
+    #[arg(long, short, global = true, display_order = 15)]
+    quiet: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -46,14 +54,18 @@ enum HalfstepCommand {
     Plant(plant::PlantArgs),
     Send(send::SendArgs),
     Stream(stream::StreamArgs),
+    Teleop(teleop::TeleopArgs),
+    View(view::ViewArgs),
+    Status(status::StatusArgs),
+    Watch(watch::WatchArgs),
     Synthesize(synthesize::SynthesizeArgs),
     Paper(paper::PaperArgs),
     Check(check::CheckArgs),
+    Doctor(doctor::DoctorArgs),
     Bench(bench::BenchArgs),
     Export(export::ExportArgs),
     Import(import::ImportArgs),
     Robots(robots::RobotsArgs),
-    View(view::ViewArgs),
     Plot(plot::PlotArgs),
     Replay(replay::ReplayArgs),
 }
@@ -62,6 +74,11 @@ impl Halfstep {
     /// Whether results are to be printed as JSON.
     pub(crate) fn prints_json(&self) -> bool {
         self.json
+    }
+
+    /// Whether only errors are to be told.
+    pub(crate) fn is_quiet(&self) -> bool {
+        self.quiet
     }
 
     /// Runs the command.
@@ -76,14 +93,18 @@ impl Halfstep {
             HalfstepCommand::Plant(args) => args.run(json),
             HalfstepCommand::Send(args) => args.run(json),
             HalfstepCommand::Stream(args) => args.run(json),
+            HalfstepCommand::Teleop(args) => args.run(json),
+            HalfstepCommand::View(args) => args.run(json),
+            HalfstepCommand::Status(args) => args.run(json),
+            HalfstepCommand::Watch(args) => args.run(json),
             HalfstepCommand::Synthesize(args) => args.run(json),
             HalfstepCommand::Paper(args) => args.run(json),
             HalfstepCommand::Check(args) => args.run(json),
+            HalfstepCommand::Doctor(args) => args.run(json),
             HalfstepCommand::Bench(args) => args.run(json),
             HalfstepCommand::Export(args) => args.run(json),
             HalfstepCommand::Import(args) => args.run(json),
             HalfstepCommand::Robots(args) => args.run(json),
-            HalfstepCommand::View(args) => args.run(json),
             HalfstepCommand::Plot(args) => args.run(json),
             HalfstepCommand::Replay(args) => args.run(json),
         }

@@ -5,10 +5,9 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
-use interface::COMMAND_TIMEOUT_MAX;
+use interface::{COMMAND_TIMEOUT_MAX, Rate};
 use node::announcements::Announced;
 use node::cycle::Clock;
-use runtime::Rate;
 use wire::{Instance, InstanceName};
 
 use crate::error::CliError;
@@ -117,6 +116,15 @@ pub(super) fn duration(text: &str) -> Result<Duration, String> {
     }
     let duration = humantime::parse_duration(text).map_err(|error| format!("{error}; write e.g. 20s or 2min"))?;
     if duration < DURATION_MIN { Err("must be at least 1ms".to_owned()) } else { Ok(duration) }
+}
+
+/// A time of a run in seconds: `3.5`, or with a unit as in `3500ms`.
+pub(super) fn run_time(text: &str) -> Result<f64, String> {
+    let seconds = match text.parse::<f64>() {
+        Ok(seconds) => Some(seconds).filter(|seconds| seconds.is_finite() && *seconds >= 0.0),
+        Err(_) => humantime::parse_duration(text).ok().map(|time| time.as_secs_f64()),
+    };
+    seconds.ok_or_else(|| "must be a time since the start of the run, e.g. 3.5s or 2min".to_owned())
 }
 
 /// A number as people write it.

@@ -5,12 +5,14 @@ use std::path::PathBuf;
 use ::paper::{Figure, RAMPS, Reading, Scenario, TableRow, page, paper_figure, reproduce, table};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use config::Config;
-use gait::RampKind;
+use gait::{RampKind, Robot};
 use node::configuration::Errors;
 
 use super::config_options::ConfigOptions;
+use super::paper_search::SearchArgs;
 use crate::error::CliError;
-use crate::output::{print_json, print_line, write_files};
+use crate::output::{print_json, print_line};
+use crate::output_folder::OutputFolder;
 use crate::status::Status;
 
 /// Reproduce the paper's walking figures: footprints, ZMP and verdict, beside the paper's
@@ -30,7 +32,15 @@ pub(super) struct PaperArgs {
     /// Draw the figures into this folder, and a page with all of them
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Replace other files in the folder
+    #[arg(long)]
+    force: bool,
+    #[command(flatten)]
+    search: SearchArgs,
 }
+
+/// Name of the page with all figures.
+const PAGE: &str = "index.html";
 
 impl PaperArgs {
     pub(super) fn run(mut self, json: bool) -> Result<Status, CliError> {
@@ -50,31 +60,40 @@ impl PaperArgs {
             }
         }
         let (robot, reading) = errors.finish(robot.zip(reading))?;
+        if self.search.search {
+            return self.search.run(&files, (&robot, reading), scenarios, self.out.as_deref(), json);
+        }
         let reading = Reading {
             turn: self.turn_ramp.unwrap_or(reading.turn),
             extension: self.extension_ramp.unwrap_or(reading.extension),
         };
 
+        let out = self.out.as_deref().map(|out| OutputFolder::open(out, self.force)).transpose()?;
         let figures = scenarios.iter().map(|scenario| reproduce(&robot, reading, scenario));
         let figures: Vec<Figure> = figures.collect::<Result<_, _>>().map_err(CliError::bad_input)?;
+        if let Some(out) = &out {
+            draw(out, &figures, &robot, reading)?;
+        }
         if json {
             print_json(&figures.iter().map(TableRow::of).collect::<Vec<_>>())?;
-        } else {
-            print_line(table(&figures).trim_end())?;
+            return Ok(Status::Success);
         }
-        let Some(out) = self.out else { return Ok(Status::Success) };
-        let pictures = figures.iter().map(|figure| paper_figure(figure, &robot, reading));
-        let pictures: Vec<String> = pictures.collect::<Result<_, _>>().map_err(CliError::bad_input)?;
-        let names: Vec<String> =
-            figures.iter().map(|figure| format!("figure_{:02}.svg", figure.scenario.figure)).collect();
-        let page = page(&figures, &pictures);
-        let files = names.iter().map(String::as_str).zip(pictures).chain([("index.html", page)]);
-        write_files(&out, &files.collect::<Vec<_>>())?;
-        if !json {
-            print_line(format_args!("drawn: {}", out.join("index.html").display()))?;
+        print_line(table(&figures).trim_end())?;
+        if let Some(out) = &out {
+            print_line(format_args!("drawn: {}", out.join(PAGE).display()))?;
         }
         Ok(Status::Success)
     }
+}
+
+/// Draws the figures, and a page with all of them.
+fn draw(out: &OutputFolder, figures: &[Figure], robot: &Robot, reading: Reading) -> Result<(), CliError> {
+    let pictures = figures.iter().map(|figure| paper_figure(figure, robot, reading));
+    let pictures: Vec<String> = pictures.collect::<Result<_, _>>().map_err(CliError::bad_input)?;
+    let names: Vec<String> = figures.iter().map(|figure| format!("figure_{:02}.svg", figure.scenario.figure)).collect();
+    let page = page(figures, &pictures);
+    let files = names.iter().map(String::as_str).zip(pictures).chain([(PAGE, page)]);
+    out.write(&files.collect::<Vec<_>>())
 }
 
 /// A ramp by its name.

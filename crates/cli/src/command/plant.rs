@@ -1,23 +1,23 @@
 //! `halfstep plant`: the process that is the robot.
 
-use interface::Setpoint;
+use interface::Rate;
 use std::path::{Path, PathBuf};
 
-use gait::{Robot, Start, Walk};
+use gait::Robot;
 use model::{Mechanism, Motion};
 use node::announcements::Announced;
 use node::configuration::{ConfigFiles, Errors, PLANT, URDF};
 use node::cycle::Cycles;
-use node::engine::{self, EngineSetup, ExternalEngine};
+use node::engine::{self, EngineSetup, ExternalPhysics};
 use node::interrupt::Interrupt;
-use node::plant_loop::run_plant;
+use node::physics::OwnPhysics;
+use node::plant_loop::{AfterFall, run_plant};
 use node::push_bridge::PushBridge;
 use node::summary::PlantSummary;
 use node::tell::tell;
 use node::{realtime, recorder};
 use pattern::PatternGenerator;
 use record::{Metadata, Provenance};
-use runtime::Rate;
 use wire::PlantPorts;
 
 use super::config_options::ConfigOptions;
@@ -50,6 +50,9 @@ pub(super) struct PlantArgs {
     /// End half a second after the robot has fallen
     #[arg(long)]
     end_when_fallen: bool,
+    /// Put a robot that has fallen back on its feet, 2 s later and where it began: it is held there until a reset
+    #[arg(long, conflicts_with = "end_when_fallen")]
+    lift_when_fallen: bool,
 }
 
 impl PlantArgs {
@@ -65,6 +68,13 @@ impl PlantArgs {
         let disturbances = files.disturbances(self.disturbances.as_deref(), &mut errors);
         let (((robot, parameters), realtime), disturbances) = errors.finish(loaded.zip(disturbances))?;
         let start = if self.runs.from_stand { self.stand(&robot, &files)? } else { robot.nominal.at(0.0) };
+        let after_fall = if self.lift_when_fallen {
+            AfterFall::Lift(Box::new(self.stand(&robot, &files)?))
+        } else if self.end_when_fallen {
+            AfterFall::End
+        } else {
+            AfterFall::Stay
+        };
         let period = realtime.rate.period_s();
         let mut plant = plant::Plant::new(&robot.mechanism, &parameters, &start, period, self.seed);
         let urdf = self.urdf(&robot.mechanism, &files)?;
@@ -77,7 +87,7 @@ impl PlantArgs {
                 if let (Some(text), Some(source)) = (urdf.clone(), &mechanism.source) {
                     setup = setup.with_urdf(text, source, mechanism, &parameters, self.seed);
                 }
-                Some(ExternalEngine::start(engine::mujoco()?, &setup).map_err(CliError::new)?)
+                Some(ExternalPhysics::start(engine::mujoco()?, setup).map_err(CliError::new)?)
             }
         };
         plant.disturbances = disturbances;
@@ -108,19 +118,11 @@ impl PlantArgs {
         if self.child.announced() == Announced::All {
             tell(format_args!("plant: waits for the controller on instance `{}`", self.instance.instance));
         }
-        let step = |plant: &mut plant::Plant, setpoint: &Setpoint| match &mut outside {
-            None => Ok(plant.step(setpoint)),
-            Some(engine) => engine.step(plant, setpoint),
+        let (measurements, pushes, recorded) = (&mut measurements, &mut pushes, &mut recorder);
+        let run = match &mut outside {
+            None => run_plant(&mut plant, &mut OwnPhysics, &mut cycles, measurements, pushes, recorded, &after_fall),
+            Some(physics) => run_plant(&mut plant, physics, &mut cycles, measurements, pushes, recorded, &after_fall),
         };
-        let run = run_plant(
-            &mut plant,
-            step,
-            &mut cycles,
-            &mut measurements,
-            &mut pushes,
-            &mut recorder,
-            self.end_when_fallen,
-        );
         drop(recorder);
         let recorded = recorder_thread.finish();
         let run = run?;
@@ -183,9 +185,6 @@ impl PlantArgs {
     fn stand(&self, robot: &Robot, files: &ConfigFiles) -> Result<Motion, CliError> {
         let mut errors = Errors::default();
         let loaded = files.controller(&mut errors);
-        let gait = errors.finish(loaded)?.gait;
-        let walk = Walk::new(robot.nominal.clone(), &robot.mechanism, &gait, Start::default());
-        let preview = PatternGenerator::standing(&robot.mechanism, walk.map_err(CliError::bad_input)?);
-        Ok(preview.physical_motion())
+        PatternGenerator::standing_motion(robot, &errors.finish(loaded)?.gait).map_err(CliError::bad_input)
     }
 }

@@ -2,9 +2,9 @@
 
 use config::Config;
 use model::{LegReach, Mechanism};
+use robots::ROBOTS;
 use serde::Serialize;
 
-use crate::built_in_robots::ROBOTS;
 use crate::error::CliError;
 use crate::output::{print_json, print_line};
 use crate::status::Status;

@@ -7,7 +7,7 @@ use interface::{GaitChange, Intent, Lifetime, Request, Source, Verdict, WalkVelo
 use std::time::Duration;
 
 use clap::Subcommand;
-use operator::reply_text::{ReplyJson, reply_text};
+use dialogue::reply_text::{ReplyJson, reply_text};
 use runtime::now_ns;
 use wire::{Instance, OperatorPorts, ReplyMessage, UrgentClient};
 
@@ -109,15 +109,17 @@ impl SendArgs {
         let request = Request { expires_ns: Some(now_ns() + EXPIRY.as_nanos() as u64), ..request };
         let reply = ask(&instance, &request)?.checked().map_err(CliError::new)?;
         let granted_ns = now_ns();
-        if json {
-            print_json(&ReplyJson::from(&reply))?;
-        } else {
+        let arrival = arrival.filter(|_| reply.verdict != Verdict::Refused);
+        // One JSON value at the end; to people the reply is told at once.
+        let at_end = (json && arrival.is_some()).then(|| ReplyJson::from(&reply));
+        if !json {
             print_line(reply_text(&request, &reply))?;
+        } else if at_end.is_none() {
+            print_json(&ReplyJson::from(&reply))?;
         }
         match arrival {
-            _ if reply.verdict == Verdict::Refused => Ok(Status::Failure),
-            None => Ok(Status::Success),
-            Some(arrival) => arrival.wait(granted_ns, json),
+            Some(arrival) => arrival.wait(granted_ns, at_end),
+            None => Ok(Status::success_if(reply.verdict != Verdict::Refused)),
         }
     }
 }

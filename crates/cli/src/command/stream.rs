@@ -5,20 +5,21 @@ use std::io::{self, BufReader, Read};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, TryRecvError};
 use std::time::Duration;
 
+use dialogue::line_queue::{CAPACITY, LineQueue, ReadLine, Superseded};
+use dialogue::lines::{BadLine, InputLines};
+use dialogue::reply_text::{ReplyJson, reply_text};
+use dialogue::script::{Reader, ScriptError};
 use interface::{Intent, Request, Source, Verdict};
 use node::interrupt::Interrupt;
 use node::tell::tell;
 use operator::command_stream::{CommandStream, SentRequest};
-use operator::line_queue::{CAPACITY, LineQueue, ReadLine, Superseded};
-use operator::lines::{BadLine, InputLines};
-use operator::reply_text::{ReplyJson, reply_text};
-use operator::script::{Reader, ScriptError};
 use runtime::now_ns;
 use serde::Serialize;
 
 use super::connect::patiently;
 use super::options::{InstanceOption, command_timeout};
 use crate::error::CliError;
+use crate::messages::complain;
 use crate::output::{print_json, print_line};
 use crate::status::Status;
 
@@ -164,7 +165,7 @@ impl Streaming {
 
     /// Sends lines and prints replies until all lines are answered, or this process is asked to end.
     fn work_off(&mut self, lines: &Receiver<ReadResult>, interrupt: &Interrupt, name: &str) -> Result<(), CliError> {
-        let cannot_read = |error| CliError::new(format!("{name}: {error}"));
+        let cannot_read = |error| CliError::bad_input(format!("{name}: {error}"));
         let mut is_at_end = false;
         let mut polls = 0_u32;
         while !interrupt.is_raised() {
@@ -286,7 +287,7 @@ impl Streaming {
         if self.json {
             self.note_printed(print_json(&LineError { line: error.line, error: error.to_string() }));
         } else {
-            tell(error);
+            complain(error);
         }
     }
 

@@ -12,7 +12,8 @@ use serde::Serialize;
 use synthesis::{Balance, GaitRecording, LegPattern, SynthesisParameters, SynthesisReport, synthesize};
 
 use crate::error::CliError;
-use crate::output::{print_json, print_line, quoted, write_files};
+use crate::output::{print_json, print_line, quoted};
+use crate::output_folder::OutputFolder;
 use crate::status::Status;
 
 /// Synthesize the nominal half-step: prescribed or recorded legs, and the trunk that keeps the ZMP under the ankle
@@ -27,7 +28,7 @@ pub(super) struct SynthesizeArgs {
     /// Recorded leg motion: hip and knee flexion over the gait cycle
     #[arg(long, value_name = "FILE")]
     recorded: Option<PathBuf>,
-    /// Replace another half-step in the output file
+    /// Replace another half-step in the output file, and other figures
     #[arg(long)]
     force: bool,
     #[command(flatten)]
@@ -115,18 +116,19 @@ impl SynthesizeArgs {
             None => LegPattern::Pendulum,
             Some(file) => LegPattern::Recorded(GaitRecording::load(file).map_err(CliError::bad_input)?),
         };
+        OutputFolder::of_file(&self.out, self.force)?;
+        let figures = self.figures.as_deref().map(|folder| OutputFolder::open(folder, self.force)).transpose()?;
         let made_by = self.command_line();
         let synthesis = synthesize(&mechanism, &pattern, &self.parameters.parameters(&mechanism), &made_by)
             .map_err(CliError::bad_input)?;
 
-        create_parent(&self.out)?;
         if !self.force {
             keep_another(&synthesis.table, &self.out)?;
         }
-        synthesis.table.write_csv(&self.out).map_err(CliError::new)?;
-        if let Some(folder) = &self.figures {
-            draw(&synthesis.table, &mechanism, folder)?;
+        if let Some(folder) = &figures {
+            folder.write(&drawn(&synthesis.table, &mechanism))?;
         }
+        synthesis.table.write_csv(&self.out).map_err(CliError::new)?;
 
         if json {
             print_json(&SynthesisJson::new(&synthesis.report, self.out))?;
@@ -191,12 +193,11 @@ impl ParameterOptions {
     }
 }
 
-fn draw(table: &NominalTable, mechanism: &Mechanism, folder: &Path) -> Result<(), CliError> {
-    let pictures = [
+fn drawn(table: &NominalTable, mechanism: &Mechanism) -> [(&'static str, String); 2] {
+    [
         ("nominal_stick.svg", picture::nominal_stick(table, mechanism)),
         ("nominal_footprints.svg", picture::nominal_footprints(table, mechanism)),
-    ];
-    write_files(folder, &pictures)
+    ]
 }
 
 /// Refuses to replace a half-step that is not the same.
@@ -211,11 +212,6 @@ fn keep_another(table: &NominalTable, out: &Path) -> Result<(), CliError> {
         "{}: holds something else{made_by}; name another file with --out, or replace it with --force",
         out.display()
     )))
-}
-
-fn create_parent(file: &Path) -> Result<(), CliError> {
-    let Some(folder) = file.parent() else { return Ok(()) };
-    fs::create_dir_all(folder).map_err(CliError::file(folder))
 }
 
 impl SynthesisJson {

@@ -9,12 +9,12 @@ use model::Mechanism;
 use node::configuration::Errors;
 use node::interrupt::Interrupt;
 use node::tell::tell;
+use robots::ROBOTS;
 use serde::Serialize;
 use view::{RecordedRun, RunningRobot, Shown, ViewServer};
 
 use super::config_options::ConfigOptions;
 use super::options::{InstanceOption, command_timeout};
-use crate::built_in_robots::ROBOTS;
 use crate::error::CliError;
 use crate::output::print;
 use crate::process::end_with_parent;

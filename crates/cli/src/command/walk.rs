@@ -1,34 +1,37 @@
 //! `halfstep walk`: both processes, a script of commands, and pictures at the end.
 
-use interface::{Intent, Reason, Request, Source, Verdict};
+use interface::{Intent, Rate, Reason, Request, Source, Verdict};
 use std::ffi::OsString;
 use std::fs;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use dialogue::reply_text::{reply_text, request_text};
+use dialogue::script::{Reader, ScriptError, TimedRequest};
 use gait::Robot;
 use node::configuration::Errors;
 use node::engine;
 use node::interrupt::Interrupt;
 use node::summary::{ControllerSummary, PlantSummary};
 use node::tell::tell;
-use operator::reply_text::reply_text;
-use operator::script::{Reader, ScriptError, TimedRequest};
 use operator::script_runner::ScriptRunner;
-use plots::picture;
+use plots::picture::{self, FloorHeights};
 use plots::run_log::RunLog;
-use record::{RUN_FILE, files_of, merge, set_folder_aside};
-use runtime::Rate;
+use plots::run_page::run_page;
+use plots::run_summary::RunSummary;
+use record::{RUN_FILE, files_of, merge, provenance_of, set_folder_aside};
 use wire::{ConnectError, Instance, InstanceName, Leftovers, ObserverPorts, OperatorPorts};
 
 use super::config_options::ConfigOptions;
 use super::engine::Engine;
 use super::options::{LoopOptions, path_option};
 use crate::error::CliError;
-use crate::output::{print, write_files};
+use crate::output::print;
+use crate::output_folder::OutputFolder;
 use crate::process::Process;
 use crate::progress::Progress;
+use crate::recorded_floor::{floor_of, recorded_ground};
 use crate::status::Status;
 use crate::walk_summary::{SummaryInFolder, WalkSummary};
 
@@ -60,6 +63,10 @@ pub(super) struct WalkArgs {
     /// Show the robot in the browser, with means to drive and to push it: prints the address of the page, see `view`
     #[arg(long)]
     view: bool,
+    /// Walk on after a fall: 2 s later the robot is put back on its feet, where it began, and held there until a reset;
+    /// --view does so, too
+    #[arg(long)]
+    lift_when_fallen: bool,
 }
 
 /// The commands if no file is given.
@@ -186,7 +193,9 @@ impl WalkArgs {
         script.send()?;
         let view = self.view.then(|| Process::start("view", self.arguments_of_view(instance))).transpose()?;
         let mut of_plant = self.arguments(instance, folder);
-        of_plant.extend(["--end-when-fallen".into(), "--seed".into(), self.seed.to_string().into()]);
+        // Who looks on can bring the robot back to a stand with a reset.
+        let after_fall = if self.view || self.lift_when_fallen { "--lift-when-fallen" } else { "--end-when-fallen" };
+        of_plant.extend([after_fall.into(), "--seed".into(), self.seed.to_string().into()]);
         of_plant.extend(["--engine".into(), self.plant.name().into()]);
         if let Some(file) = &self.disturbances {
             of_plant.push(path_option("--disturbances", file));
@@ -260,15 +269,23 @@ impl WalkArgs {
             clock: self.runs.clock().text(),
             deadline_misses: controller.deadline_misses + plant.deadline_misses,
             timing: controller.timing,
+            setpoint_hash: controller.setpoint_hash.clone(),
             log_gaps: controller.log_gaps + plant.log_gaps,
             problems,
             real_time_factor: if plant.wall_s > 0.0 { duration_s / plant.wall_s } else { 0.0 },
         };
         let text = serde_json::to_string_pretty(&summary).map_err(CliError::new)?;
         let mut files = vec![("summary.json", text + "\n")];
-        files.extend(picture::of_run(&log, &robot.mechanism));
+        let origin = provenance_of(folder)?;
+        // The parameters were checked before the walk began.
+        let floor = recorded_ground(&origin)?.map_or(FloorHeights::PLANE, floor_of);
+        let pictures = picture::of_run(&log, &robot.mechanism, &floor);
+        let of_run = RunSummary::of(&log, &robot.mechanism);
+        let name = folder.display().to_string();
+        files.push(("index.html", run_page(&name, &of_run, &pictures, &log.notes, &origin)));
+        files.extend(pictures.drawn.into_iter().map(|picture| (picture.file, picture.svg)));
         // Without room for them the summary is printed at least.
-        if let Err(error) = write_files(folder, &files) {
+        if let Err(error) = OutputFolder::open(folder, true).and_then(|out| out.write(&files)) {
             summary.problems.push(error.to_string());
         }
         Ok(summary)
@@ -330,8 +347,8 @@ impl Walking {
         while let Some((request, reply)) = self.script.next_reply() {
             // At its end the controller refuses what still waits for its tick.
             if reply.verdict != Verdict::Accepted && reply.reason != Reason::ShuttingDown {
-                let time = rate.time(request.not_before);
-                progress.print(&format!("at {time:.2} s: {}", reply_text(&request, &reply)));
+                let (time, asked) = (rate.time(request.not_before), request_text(&request));
+                progress.print(&format!("at {time:.2} s, {asked}: {}", reply_text(&request, &reply)));
             }
         }
     }

@@ -16,11 +16,12 @@ const PUSH_SEEN_MIN: f64 = 0.005;
 impl Controller {
     /// Updates feedback, landing compliance and step adjustment with the centre of mass, estimated or predicted.
     pub(super) fn balance(&mut self, com: Option<ComState>, dt: f64) {
-        let follows_walk = self.follows_walk();
-        if !follows_walk {
+        // On the way to a stand the robot balances on both feet.
+        let balances = self.follows_walk() || self.state.is_recovering();
+        if !balances {
             self.feedback.release();
         }
-        let com = com.filter(|_| follows_walk);
+        let com = com.filter(|_| balances);
         let in_double_support = self.pattern.gait().in_double_support();
         let is_changing_support = self.pattern.gait().is_changing_support();
 

@@ -1,10 +1,10 @@
 //! Requests to the controller, between its ticks: decided at once, or by an admission job.
 
-use interface::{ActiveLimit, ControlAuthority, Fault, GaitChange, Intent, Objection, Reason, Reply, Request, Verdict};
+use interface::{ControlAuthority, Fault, GaitChange, Intent, Objection, Reason, Reply, Request, Verdict};
 use pattern::{Gait, GaitPhase, Stance};
 
 use super::Controller;
-use super::robot_posture::STAND_TOLERANCE;
+use super::robot_posture::STAND_TILT_MAX;
 use crate::admission_job::{AdmissionJob, Decision};
 use crate::pattern::{Pattern, goal_of};
 
@@ -168,12 +168,14 @@ impl Controller {
         if !self.state.holds_posture() {
             return None;
         }
-        let (Pattern::Planned(_), Some(measured)) = (&self.pattern, &self.measured_angles) else { return persists };
-        // Who has fallen is held by somebody, and put on its feet. Who stands on its feet by itself must not slip.
-        let (joint, value) = self.distance_from_stand(measured);
-        let limit = ActiveLimit { joint: Some(joint), value, limit: STAND_TOLERANCE };
-        (self.state.is_found() && value > STAND_TOLERANCE)
-            .then_some(Objection { reason: Reason::NotInStand, active_limit: Some(limit) })
+        let (Pattern::Planned(_), Some(measured)) = (&self.pattern, self.measured_angles) else { return persists };
+        let is_level = self.attitude.up_in_trunk().is_some_and(|up| up.z > dynamics::sin_cos(STAND_TILT_MAX).1);
+        if !is_level {
+            return persists;
+        }
+        // Feet that bear the robot would slip on the way to a stand. Who hangs in the air may move as it likes.
+        let is_on_its_feet = self.contact.in_contact != [false, false];
+        is_on_its_feet.then(|| self.objection_to_posture(&measured)).flatten()
     }
 
     /// Clears the latched fault. A robot that holds its posture moves to a stand first.

@@ -256,7 +256,7 @@ impl ArmSearch<'_> {
 /// How far a direction points outward from the robot's plane of symmetry (rad).
 fn aside(side: Side, direction: &Vector3<f64>) -> f64 {
     let outward = if side == Side::Right { -direction.y } else { direction.y };
-    outward.atan2(direction.x.hypot(direction.z))
+    libm::atan2(outward, libm::hypot(direction.x, direction.z))
 }
 
 /// The angles with one of them changed.

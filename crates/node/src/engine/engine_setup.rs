@@ -68,6 +68,20 @@ pub(super) struct ScheduledPush {
     duration: f64,
 }
 
+impl InitialState {
+    fn of(start: &RobotState) -> Self {
+        let orientation = start.sole_to_world.rotation;
+        Self {
+            position: start.sole_to_world.translation.vector.into(),
+            orientation: [orientation.w, orientation.i, orientation.j, orientation.k],
+            angular_rate: start.angular_rate.into(),
+            velocity: start.velocity.into(),
+            angles: start.angles.0,
+            rates: start.rates.0,
+        }
+    }
+}
+
 impl From<&Push> for ScheduledPush {
     fn from(push: &Push) -> Self {
         let Push { link, impulse, start, duration } = *push;
@@ -103,7 +117,6 @@ impl EngineSetup {
         let built = with_mass_error(mechanism, parameters.mass_error, seed);
         let servo = |joint| parameters.servo.of(mechanism.servos.of(joint));
         let motors = || Joint::ALL.into_iter().filter_map(|joint| Some((joint, mechanism.links[joint].motor?)));
-        let orientation = start.sole_to_world.rotation;
         Ok(Self {
             protocol: PROTOCOL,
             robot: RobotModel::Mechanism { mjcf: mjcf_text_on(&built, parameters, without_bodies, period) },
@@ -113,19 +126,18 @@ impl EngineSetup {
             stiffness: motors().map(|(joint, _)| servo(joint).stiffness).collect(),
             damping: motors().map(|(joint, _)| servo(joint).damping).collect(),
             back_emf: motors().map(|(_, motor)| motor.back_emf_damping()).collect(),
-            start: InitialState {
-                position: start.sole_to_world.translation.vector.into(),
-                orientation: [orientation.w, orientation.i, orientation.j, orientation.k],
-                angular_rate: start.angular_rate.into(),
-                velocity: start.velocity.into(),
-                angles: start.angles.0,
-                rates: start.rates.0,
-            },
+            start: InitialState::of(start),
             pushes: disturbances.pushes.iter().map(ScheduledPush::from).collect(),
             told_pushes: disturbances.pushes.clone(),
             floor: laid_floor.as_ref().map(LaidFloor::bodies).unwrap_or_default(),
             laid_floor,
         })
+    }
+
+    /// The same robot that begins in another state, and is told of pushes later.
+    #[must_use]
+    pub(super) fn beginning(self, start: &RobotState) -> Self {
+        Self { start: InitialState::of(start), pushes: Vec::new(), told_pushes: Vec::new(), ..self }
     }
 
     /// The same run with the robot that the text of a URDF describes, from which the mechanism was imported.

@@ -8,11 +8,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::time::Duration;
 
-use indicatif::ProgressBar;
+use indicatif::{ProgressBar, ProgressStyle};
 
 use super::mujoco_program;
 use super::text_hash::text_hash;
-use crate::tell::tell;
+use crate::tell::{is_quiet, tell};
 
 const REQUIREMENTS: &str = include_str!("../../../../tools/mujoco_plant/requirements.txt");
 /// All packages that they need, each with its version and the hashes of its files.
@@ -91,7 +91,10 @@ fn install(folder: &Path, python: &Path) -> Result<(), EnvironmentError> {
     let system = system_python()?;
     tell(format_args!("MuJoCo's first use: making a Python environment in {}", folder.display()));
     let packages: Vec<_> = REQUIREMENTS.split_whitespace().collect();
-    let bar = ProgressBar::new_spinner();
+    let bar = if is_quiet() { ProgressBar::hidden() } else { ProgressBar::new_spinner() };
+    // The template is a constant and valid.
+    let style = ProgressStyle::with_template("{spinner} {wide_msg} {elapsed}");
+    let bar = bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
     bar.enable_steady_tick(Duration::from_millis(100));
 
     bar.set_message("creating the environment");
@@ -108,7 +111,12 @@ fn install(folder: &Path, python: &Path) -> Result<(), EnvironmentError> {
              python3-venv. `--plant rust` needs no Python."
         )));
     }
-    bar.set_message(format!("installing {} (about 60 MB, once)", packages.join(", ")));
+    let installing = format!("installing {} (about 60 MB, once)", packages.join(", "));
+    // Where there is no terminal the line is all that is seen of it.
+    if bar.is_hidden() {
+        tell(&installing);
+    }
+    bar.set_message(installing);
     let lock = folder.join("requirements.lock");
     fs::write(&lock, LOCK).map_err(|error| EnvironmentError(format!("{}: {error}", lock.display())))?;
     let installed = run(Command::new(python).args(PIP).arg(&lock))?;

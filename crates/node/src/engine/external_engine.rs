@@ -46,6 +46,8 @@ pub struct ExternalEngine {
     /// What a thread has read of the engine's output: reading by itself would wait for a hung engine without end.
     answers: Receiver<std::io::Result<Answer>>,
     floor: Option<LaidFloor>,
+    /// The plant's time when the engine's began (s); `None` until its first period.
+    began: Option<f64>,
     /// The pushes that the engine knows.
     told_pushes: Vec<Push>,
     /// The links that it can push, by their names.
@@ -87,6 +89,7 @@ impl ExternalEngine {
             setpoints,
             answers,
             floor: setup.laid_floor.clone(),
+            began: Some(0.0),
             told_pushes: setup.told_pushes.clone(),
             links: Vec::new(),
             name: String::new(),
@@ -105,6 +108,13 @@ impl ExternalEngine {
         let hello = hello.filter(fits).ok_or_else(|| EngineError::Mismatch(answer.trim().to_owned()))?;
         (engine.name, engine.links) = (hello.engine, hello.links);
         Ok(engine)
+    }
+
+    /// The same engine, whose time begins with the first period that it computes.
+    #[must_use]
+    pub(super) fn beginning_later(mut self) -> Self {
+        self.began = None;
+        self
     }
 
     /// Moves the plant's robot on by one control period.
@@ -131,6 +141,7 @@ impl ExternalEngine {
 
     /// What the engine does not know yet.
     fn change(&mut self, plant: &Plant) -> Option<Change> {
+        let began = *self.began.get_or_insert_with(|| plant.time());
         let floor = self.floor.as_mut().and_then(|floor| floor.follow(plant));
         let pushes: Vec<Push> = plant.disturbances.pushes.iter().copied().filter(|push| self.is_news(push)).collect();
         if floor.is_none() && pushes.is_empty() {
@@ -139,7 +150,8 @@ impl ExternalEngine {
         // Pushes that are over can be forgotten: the plant has none of them either.
         self.told_pushes.retain(|push| push.start + push.duration > plant.time());
         self.told_pushes.extend_from_slice(&pushes);
-        Some(Change { floor, pushes: pushes.iter().map(ScheduledPush::from).collect() })
+        let in_its_time = |push: &Push| ScheduledPush::from(&Push { start: push.start - began, ..*push });
+        Some(Change { floor, pushes: pushes.iter().map(in_its_time).collect() })
     }
 
     fn is_news(&self, push: &Push) -> bool {

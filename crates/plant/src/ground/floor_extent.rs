@@ -15,6 +15,6 @@ pub(super) const FRICTION_MAX: f64 = 10.0;
 /// The optional `heading_deg` of a table as a unit vector: 0 is ahead, 90 to the left.
 pub(super) fn direction(table: &Table) -> Vector2<f64> {
     let heading = if table.has("heading_deg") { table.angle("heading_deg").between(-360.0, 360.0) } else { 0.0 };
-    let (sin, cos) = heading.sin_cos();
+    let (sin, cos) = libm::sincos(heading);
     Vector2::new(cos, sin)
 }

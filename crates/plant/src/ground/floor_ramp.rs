@@ -35,14 +35,14 @@ impl FloorRamp {
 
     /// What it adds to the height of the floor at a place (m).
     pub(super) fn height(&self, place: Vector2<f64>) -> f64 {
-        self.along(place).max(0.0).min(self.length) * self.rise.tan()
+        self.along(place).max(0.0).min(self.length) * libm::tan(self.rise)
     }
 
     /// What it adds to the slope of the floor at a place: height per distance along x and y (-).
     pub(super) fn slope(&self, place: Vector2<f64>) -> Vector2<f64> {
         let along = self.along(place);
         let is_on_it = along >= 0.0 && along < self.length;
-        if is_on_it { self.direction * self.rise.tan() } else { Vector2::zeros() }
+        if is_on_it { self.direction * libm::tan(self.rise) } else { Vector2::zeros() }
     }
 
     /// Where it begins and ends.

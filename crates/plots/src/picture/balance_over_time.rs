@@ -46,6 +46,10 @@ pub fn balance_over_time(log: &RunLog, mechanism: &Mechanism) -> String {
         panel
     });
 
+    if log.controller.is_empty() {
+        draw_truth(&mut panels, log, &floor, shown);
+        return picture("Balance over the feet", log, mechanism, shown, HEIGHT, panels.into());
+    }
     let from = log.controller.partition_point(|row| row.time < shown.0);
     let to = log.controller.partition_point(|row| row.time <= shown.1);
     let rows: Vec<(&ControllerRow, FootPlacement)> = thinned(&log.controller[from..to], BETWEEN, |row| row.time)
@@ -63,7 +67,27 @@ pub fn balance_over_time(log: &RunLog, mechanism: &Mechanism) -> String {
             panel.draw(label, pen, on_floor.iter().map(|(time, point)| [*time, point[axis]]).collect());
         }
     }
-    picture("Balance over the feet, planned and measured", log, mechanism, shown, HEIGHT, panels.into())
+    let title = format!("Balance over the feet, planned and measured{}", log.estimated_text());
+    picture(&title, log, mechanism, shown, HEIGHT, panels.into())
+}
+
+/// Draws what is known without the controller: the true curves.
+fn draw_truth(panels: &mut [TimePanel; 2], log: &RunLog, floor: &FloorView, (from, to): (f64, f64)) {
+    let first = log.plant.partition_point(|row| row.time < from);
+    let end = log.plant.partition_point(|row| row.time <= to);
+    type Truth = fn(&RunLog, usize) -> Option<Vector2<f64>>;
+    let curves: [(&str, Pen, Truth); 3] = [
+        ("ZMP of the ground", Pen::solid(ZMP, 1.1), |log, row| log.plant[row].zmp_in_world),
+        ("centre of mass", Pen::solid(COM, 1.2), |log, row| Some(log.plant[row].com_in_world.xy())),
+        ("divergent component", Pen::solid(DIVERGENT, 1.2), RunLog::divergent_component),
+    ];
+    for (label, pen, point) in curves {
+        let at = |row: usize| point(log, row).map_or(Vector2::repeat(f64::NAN), |point| floor.point(point));
+        let points: Vec<(f64, Vector2<f64>)> = (first..end).map(|row| (log.plant[row].time, at(row))).collect();
+        for (axis, panel) in panels.iter_mut().enumerate() {
+            panel.draw(label, pen, points.iter().map(|(time, point)| [*time, point[axis]]).collect());
+        }
+    }
 }
 
 /// Axes of the picture on the floor: along the mean direction of the soles in the middle of the shown time, and across

@@ -66,8 +66,9 @@ const MAP_WIDTH_MIN: f64 = 520.0;
 const MAP_SIZE_MAX: f64 = 40_000.0;
 /// No coordinate that is drawn is larger.
 const FAR: f64 = 1e10;
-/// Number of columns of a legend.
+/// Number of columns of a legend whose labels are at most so long (characters).
 const LEGEND_COLUMNS: usize = 2;
+const LEGEND_LABEL_MAX: usize = 33;
 /// Height of a legend's line, and space above and below the lines (px at scale 1).
 const LEGEND_LINE: f64 = 18.0;
 const LEGEND_SPACE: f64 = 30.0;
@@ -121,6 +122,11 @@ impl Chart {
     /// Draws text centred on a point.
     pub fn text(&mut self, text: impl Into<String>, [x, y]: Point) {
         self.texts.push(TextAnnotation::new(text.into(), x, y).with_color("#333333"));
+    }
+
+    /// Whether nothing was drawn.
+    pub(super) fn is_empty(&self) -> bool {
+        self.plots.is_empty()
     }
 
     /// Adds a line to the legend.
@@ -311,17 +317,23 @@ impl Legend {
 
     /// Height of the legend below the axis label (px at scale 1).
     fn height(&self) -> f64 {
-        match self.0.len().div_ceil(LEGEND_COLUMNS) {
+        match self.0.len().div_ceil(self.columns()) {
             0 => 0.0,
             lines => lines as f64 * LEGEND_LINE + LEGEND_SPACE,
         }
+    }
+
+    fn columns(&self) -> usize {
+        let is_long = |entry: &LegendEntry| entry.label.chars().count() > LEGEND_LABEL_MAX;
+        if self.0.iter().any(is_long) { 1 } else { LEGEND_COLUMNS }
     }
 
     fn below(self, layout: Layout) -> Layout {
         if self.0.is_empty() {
             return layout;
         }
-        let layout = layout.with_legend_entries(self.0).with_legend_box(false).with_legend_col_limit(LEGEND_COLUMNS);
+        let columns = self.columns();
+        let layout = layout.with_legend_entries(self.0).with_legend_box(false).with_legend_col_limit(columns);
         layout.with_legend_position(LegendPosition::OutsideBottomColumns)
     }
 }

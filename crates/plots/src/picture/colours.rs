@@ -8,6 +8,10 @@ use model::Side;
 pub const RIGHT: &str = "#0072B2";
 /// The left foot.
 pub const LEFT: &str = "#D55E00";
+/// What was planned of the right side.
+pub const RIGHT_PALE: &str = "#A9CFE6";
+/// What was planned of the left side.
+pub const LEFT_PALE: &str = "#F3C6A2";
 /// The zero-moment point.
 pub const ZMP: &str = "#000000";
 /// Planned values.
@@ -22,6 +26,10 @@ pub const DIVERGENT: &str = "#A8317F";
 pub const DIVERGENT_PLANNED: &str = "#E6AFD2";
 /// The edges of a sole, and other lines for orientation.
 pub const EDGE: &str = "#999999";
+/// The first of two runs over each other.
+pub const FIRST_RUN: &str = "#333333";
+/// The second one.
+pub const SECOND_RUN: &str = "#2E9BDA";
 /// A fall.
 pub const FALL: &str = "#CC0000";
 

@@ -1,14 +1,14 @@
 //! The floor from above, in the style of the paper's figures: footprints, and the paths of zero-moment point, centre of
 //! mass and divergent component of motion.
 
-use model::Mechanism;
+use model::{Mechanism, Side};
 
 use super::chart::{Chart, Map, Pen, Point, maps};
 use super::colours::{COM, DIVERGENT, LEFT, RIGHT, ZMP};
 use super::fall_marks::FallMarks;
 use super::sole_outline::{draw_arrow_head, draw_sole};
 use super::thinning::thinned;
-use crate::run_log::{PlantRow, RunLog};
+use crate::run_log::{Measures, PlantRow, RunLog};
 
 /// Time between two points of a path (s): less than 1 cm of the fastest walk.
 const BETWEEN: f64 = 0.01;
@@ -39,14 +39,10 @@ pub fn footprints(log: &RunLog, mechanism: &Mechanism) -> String {
     chart.line(thinned(&divergent, between, |(time, _)| *time).map(|(_, point)| *point), ahead);
     chart.line(thinned(upright, between, time).map(|row| [row.com_in_world.x, row.com_in_world.y]), com);
 
-    for half_step in log.half_steps() {
-        let (first, last) = (&half_step[0], &half_step[half_step.len() - 1]);
-        let from = upright.partition_point(|row| row.time < first.time);
-        let to = upright.partition_point(|row| row.time <= last.time);
-        let path: Vec<Point> = thinned(&upright[from..to], between, time)
-            .filter(|row| row.bears_alone(first.support))
-            .filter_map(|row| row.zmp_in_world.map(|zmp| [zmp.x, zmp.y]))
-            .collect();
+    let lone = |row: &PlantRow| Side::BOTH.into_iter().find(|side| row.bears_alone(*side));
+    for support in upright.chunk_by(|row, next| lone(row) == lone(next)).filter(|rows| lone(&rows[0]).is_some()) {
+        let path: Vec<Point> =
+            thinned(support, between, time).filter_map(|row| row.zmp_in_world.map(|zmp| [zmp.x, zmp.y])).collect();
         draw_path(&mut chart, &path, zmp);
     }
 
@@ -58,15 +54,22 @@ pub fn footprints(log: &RunLog, mechanism: &Mechanism) -> String {
     let fall = FallMarks::of(log, mechanism);
     fall.draw_on_floor(&mut chart, log);
     fall.key_on_floor(&mut chart);
-    chart.x_label = fall.axis_label("x [m]");
     let measures = log.measures(mechanism);
-    let title = format!(
-        "Footprints: {} half-steps, {:.1} m, heading {:+.0}°",
-        measures.half_steps, measures.distance_m, measures.truth.heading_deg
-    );
-    let title = title + &fall.title();
-    let scale = (CANVAS / chart.span().max(0.1)).clamp(*SCALE.start(), *SCALE.end());
+    let heading = measures.truth.unwrap_or(measures.estimated).heading_deg.round() + 0.0;
+    let title = if log.controller.is_empty() {
+        format!("Footprints: {:.1} m, heading {heading:+.0}°", measures.distance_m)
+    } else {
+        let Measures { half_steps, distance_m, .. } = measures;
+        format!("Footprints: {half_steps} half-steps, {distance_m:.1} m, heading {heading:+.0}°")
+    };
+    let title = title + log.estimated_text() + &fall.title();
+    let scale = map_scale(&chart);
     maps(&title, vec![Map { chart, scale }])
+}
+
+/// The scale of a map of footprints (px/m).
+pub(super) fn map_scale(chart: &Chart) -> f64 {
+    (CANVAS / chart.span().max(0.1)).clamp(*SCALE.start(), *SCALE.end())
 }
 
 /// Draws a path, with an arrow head at its end unless it stays in one spot.

@@ -12,6 +12,8 @@ use crate::run_log::{ControllerRow, RunLog};
 const HEIGHT: f64 = 260.0;
 /// Range that is always shown: the greatest distance of a point of a sole from its edge, and some more (mm).
 const ALWAYS: [f64; 2] = [-5.0, 45.0];
+/// Lower margins are those of a fall, and would flatten everything else (mm).
+pub(super) const LOWEST: f64 = -60.0;
 
 /// Two panels: the margin at every tick, and its least value in each half-step away from support changes, at which the
 /// planned point moves from foot to foot.
@@ -20,17 +22,22 @@ pub fn margin_over_time(log: &RunLog, mechanism: &Mechanism) -> String {
     let edge = Pen::dashed(EDGE, 1.4);
     let margins = Margins::of(log, mechanism);
 
-    let mut every = TimePanel::usual("margin [mm]", &ALWAYS);
+    let mut every = TimePanel::usual("margin [mm]", &ALWAYS).not_below(LOWEST);
     every.draw("ZMP planned, to the edge", planned, margins.over_time(|margin| margin.planned));
     every.draw("ZMP measured, to the edge", measured, margins.over_time(|margin| margin.measured));
     every.level("edge of the support polygon", &[0.0], edge);
 
-    let mut least = TimePanel::new("least, off support changes [mm]", &ALWAYS);
+    let mut least = TimePanel::new("least, off support changes [mm]", &ALWAYS).not_below(LOWEST);
     least.draw("ZMP planned, to the edge", planned, margins.least(|margin| margin.planned));
     least.draw("ZMP measured, to the edge", measured, margins.least(|margin| margin.measured));
     least.level("edge of the support polygon", &[0.0], edge);
 
     picture("Margin of the zero-moment point", log, mechanism, whole_run(log), HEIGHT, vec![every, least])
+}
+
+/// The least measured margin of each half-step away from support changes, as a step curve (mm).
+pub(super) fn least_measured_margins(log: &RunLog, mechanism: &Mechanism) -> Vec<Point> {
+    Margins::of(log, mechanism).least(|margin| margin.measured)
 }
 
 /// The margin at a tick (m).

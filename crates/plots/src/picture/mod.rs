@@ -7,9 +7,14 @@
 mod balance_over_time;
 pub mod chart;
 pub mod colours;
+mod compared_runs;
 mod compensation_over_time;
+mod drives_over_time;
 mod fall_marks;
+mod floor;
 mod footprints;
+mod joint_panels;
+mod joints_over_time;
 mod margin_over_time;
 mod nominal_footprints;
 mod nominal_stick;
@@ -25,8 +30,12 @@ mod zmp_over_time;
 use model::Mechanism;
 
 pub use balance_over_time::balance_over_time;
+pub use compared_runs::{ComparedRun, compared_footprints, compared_over_time};
 pub use compensation_over_time::compensation_over_time;
+pub use drives_over_time::{currents_over_time, torques_over_time};
+pub use floor::FloorHeights;
 pub use footprints::footprints;
+pub use joints_over_time::{joint_errors_over_time, joints_over_time};
 pub use margin_over_time::margin_over_time;
 pub use nominal_footprints::nominal_footprints;
 pub use nominal_stick::nominal_stick;
@@ -36,22 +45,136 @@ pub use zmp_over_time::zmp_over_time;
 
 use crate::run_log::RunLog;
 
-/// Draws the pictures of a run for which it holds what they show: all of them, if both processes recorded. Returns the
-/// names and texts of the files.
-pub fn of_run(log: &RunLog, mechanism: &Mechanism) -> Vec<(&'static str, String)> {
-    let (plant, controller) = (!log.plant.is_empty(), !log.controller.is_empty());
-    type Draw = fn(&RunLog, &Mechanism) -> String;
-    let pictures: [(&str, bool, Draw); 7] = [
-        ("footprints.svg", plant && controller, footprints),
-        ("balance_over_time.svg", plant && controller, balance_over_time),
-        ("margin_over_time.svg", controller, margin_over_time),
-        ("compensation_over_time.svg", controller, compensation_over_time),
-        ("zmp_over_time.svg", controller, zmp_over_time),
-        ("zmp_in_sole.svg", plant && controller, zmp_in_sole),
-        ("stick_walk.svg", plant, stick_walk),
-    ];
-    let drawn = pictures.into_iter().filter(|(_, can_be_drawn, _)| *can_be_drawn);
-    drawn.map(|(name, _, draw)| (name, draw(log, mechanism))).collect()
+/// The pictures of a run, and those that cannot be drawn of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RunPictures {
+    /// The pictures in the order in which they tell of the run.
+    pub drawn: Vec<RunPicture>,
+    /// Pictures that are missing and why, one text each.
+    pub missing: Vec<String>,
+}
+
+/// A picture of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunPicture {
+    /// Name of its file.
+    pub file: &'static str,
+    /// What it shows, in a sentence.
+    pub shows: &'static str,
+    /// Its text.
+    pub svg: String,
+}
+
+/// What a picture is drawn from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Needs {
+    /// The robot: its true states, or those that the controller estimates.
+    Robot,
+    /// The controller's reports.
+    Reports,
+    /// Measurements and setpoints.
+    Drives,
+    /// Currents of DC motors.
+    Currents,
+}
+
+impl Needs {
+    /// What is missing, if the run does not have it.
+    fn missing(self, log: &RunLog, mechanism: &Mechanism) -> Option<&'static str> {
+        match self {
+            Needs::Robot => log.plant.is_empty().then_some("no state of the robot was recorded"),
+            Needs::Reports => log.controller.is_empty().then_some("no report of the controller was recorded"),
+            Needs::Drives | Needs::Currents if log.drives.is_empty() => {
+                Some("no measurement and setpoint were recorded")
+            }
+            Needs::Currents if !drives_over_time::has_currents(mechanism) => {
+                Some("the robot has no DC motor: nothing is known of the currents of its drives")
+            }
+            Needs::Drives | Needs::Currents => None,
+        }
+    }
+}
+
+type Draw = fn(&RunLog, &Mechanism, &FloorHeights) -> String;
+
+const PICTURES: [(&str, &str, Needs, Draw); 11] = [
+    (
+        "footprints.svg",
+        "The floor from above: where the soles stood, and the paths of ZMP, centre of mass and divergent component.",
+        Needs::Robot,
+        |log, mechanism, _| footprints(log, mechanism),
+    ),
+    (
+        "stick_walk.svg",
+        "The robot from the side and from the front, on the floor along its way.",
+        Needs::Robot,
+        stick_walk,
+    ),
+    (
+        "margin_over_time.svg",
+        "Distance of the ZMP from the edge of the support polygon. At a support change it passes zero; the lower panel \
+         leaves support changes out.",
+        Needs::Reports,
+        |log, mechanism, _| margin_over_time(log, mechanism),
+    ),
+    (
+        "zmp_over_time.svg",
+        "Measured and planned ZMP in the support foot's sole frame, and the commands.",
+        Needs::Reports,
+        |log, mechanism, _| zmp_over_time(log, mechanism),
+    ),
+    (
+        "balance_over_time.svg",
+        "ZMP, centre of mass and divergent component over the soles on the floor.",
+        Needs::Robot,
+        |log, mechanism, _| balance_over_time(log, mechanism),
+    ),
+    (
+        "zmp_in_sole.svg",
+        "The ZMP of all half-steps in the soles: how much of them the walk uses.",
+        Needs::Robot,
+        |log, mechanism, _| zmp_in_sole(log, mechanism),
+    ),
+    (
+        "compensation_over_time.svg",
+        "Angles that plan and feedback add at the support ankle and the waist.",
+        Needs::Reports,
+        |log, mechanism, _| compensation_over_time(log, mechanism),
+    ),
+    (
+        "joints_over_time.svg",
+        "Joint angles: setpoint, measured, and the ends of their ranges.",
+        Needs::Drives,
+        |log, mechanism, _| joints_over_time(log, mechanism),
+    ),
+    (
+        "joint_errors_over_time.svg",
+        "How far each joint is from its setpoint. A servo yields under load: a bearing leg always has an error.",
+        Needs::Drives,
+        |log, mechanism, _| joint_errors_over_time(log, mechanism),
+    ),
+    (
+        "torques_over_time.svg",
+        "Motor torques at the joints, what the plan expected, and the limits of the drives.",
+        Needs::Drives,
+        |log, mechanism, _| torques_over_time(log, mechanism),
+    ),
+    ("currents_over_time.svg", "Measured motor currents.", Needs::Currents, |log, mechanism, _| {
+        currents_over_time(log, mechanism)
+    }),
+];
+
+/// Draws the pictures of a run, or of a part of it, for which it holds what they show: all of them, if both processes
+/// recorded.
+pub fn of_run(log: &RunLog, mechanism: &Mechanism, floor: &FloorHeights) -> RunPictures {
+    let mut pictures = RunPictures::default();
+    for (file, shows, needs, draw) in PICTURES {
+        match needs.missing(log, mechanism) {
+            Some(why) => pictures.missing.push(format!("{file}: {why}")),
+            None => pictures.drawn.push(RunPicture { file, shows, svg: draw(log, mechanism, floor) }),
+        }
+    }
+    pictures
 }
 
 #[cfg(test)]
@@ -63,16 +186,19 @@ mod tests {
     #[test]
     fn pictures_of_short_runs_and_of_one_process_are_valid() {
         let mechanism = synthetic::mechanism();
-        assert!(of_run(&RunLog::default(), &mechanism).is_empty());
-        let (short, run) = (synthetic::log(0, 0.0), synthetic::log(3, 0.1));
+        let all = |log: &RunLog| of_run(log, &mechanism, &FloorHeights::PLANE);
+        assert!(all(&RunLog::default()).drawn.is_empty());
+        let (short, mut run) = (synthetic::log(0, 0.0), synthetic::log(3, 0.1));
+        run.drives = (0..20).map(|tick| synthetic::drives_at(f64::from(tick) * 0.1, &mechanism, |_| 1.5)).collect();
         let of_controller = RunLog { plant: Vec::new(), ..run.clone() };
-        let of_plant = RunLog { controller: Vec::new(), ..run };
-        let drawn = |log| of_run(log, &mechanism).iter().map(|(name, _)| *name).collect::<Vec<_>>();
-        assert_eq!(drawn(&of_controller), ["margin_over_time.svg", "compensation_over_time.svg", "zmp_over_time.svg"]);
-        assert_eq!(drawn(&of_plant), ["stick_walk.svg"]);
-        for log in [short, of_controller, of_plant] {
-            for (_, svg) in of_run(&log, &mechanism) {
-                assert!(svg.starts_with("<svg") && !svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        let of_plant = RunLog { controller: Vec::new(), drives: Vec::new(), ..run.clone() };
+        assert_eq!((all(&run).drawn.len(), all(&run).missing.len()), (11, 0));
+        assert_eq!((all(&of_controller).drawn.len(), all(&of_plant).drawn.len()), (7, 4));
+        let missing = all(&of_plant).missing;
+        assert!(missing.contains(&"zmp_over_time.svg: no report of the controller was recorded".to_owned()));
+        for log in [short, run, of_controller, of_plant] {
+            for RunPicture { file, svg, .. } in all(&log).drawn {
+                assert!(svg.starts_with("<svg") && !svg.contains("NaN") && !svg.contains("inf"), "{file}: {svg}");
             }
         }
     }

@@ -4,17 +4,29 @@ use dynamics::{Kinematics, Tree};
 use model::{LegReach, Mechanism, Side};
 use nalgebra::{Vector2, Vector3};
 
-use super::chart::{Chart, Map, Pen, maps};
+use super::chart::{Chart, Map, Pen, Point, maps};
 use super::colours::EDGE;
+use super::fall_marks::FallMarks;
+use super::floor::FloorHeights;
 use super::sticks::{draw_stick_figure, key_sticks};
 use super::stretch::{rows_between, stretch};
 use crate::run_log::{PlantRow, RunLog};
 
-/// Time between two figures of the side view, and of the front view (s).
-const INTERVALS: [f64; 2] = [0.2, 0.4];
+/// Time between two figures of the side view (s); the front view has every other one.
+const INTERVAL: f64 = 0.2;
+/// Most figures; a longer part of a walk has them further apart.
+const FIGURES_MAX: f64 = 40.0;
+/// The floor.
+const FLOOR: Pen = Pen::solid(EDGE, 1.2);
+/// Distance of the points between which the floor is drawn straight along the walk (m), and their number under a figure
+/// seen from the front.
+const FLOOR_DISTANCE: f64 = 0.005;
+const FLOOR_POINTS: i32 = 60;
 // The following are for the paper's robot; others are drawn in proportion.
 /// Distance between two figures of the front view (m).
 const APART: f64 = 0.7;
+/// How far the floor is drawn beyond the walk (m).
+const BEYOND: f64 = 0.3;
 /// Height of the times over the front view, and its height (m).
 const TIMES: [f64; 2] = [1.78, 1.84];
 /// Scales of the side view and of the front view (px/m).
@@ -32,11 +44,13 @@ struct Posture {
     travelled: f64,
 }
 
-/// Draws figures over some seconds in the middle of the walk, or before its first fall. A turning walk is unrolled
-/// along the line through the middles between the feet, and viewed across it.
-pub fn stick_walk(log: &RunLog, mechanism: &Mechanism) -> String {
+/// Draws figures over some seconds in the middle of the walk, or up to its first fall, on the floor as it is along the
+/// way. A turning walk is unrolled along the line through the middles between the feet, and viewed across it.
+pub fn stick_walk(log: &RunLog, mechanism: &Mechanism, floor: &FloorHeights) -> String {
     let rows = rows_between(log, stretch(log));
-    let postures = postures(rows, mechanism);
+    // What follows a fall is not simulated well: only the soles touch the ground.
+    let rows = rows.iter().position(|row| row.fallen).map_or(rows, |fell| &rows[..=fell]);
+    let (postures, interval) = postures(rows, mechanism);
     let size = LegReach::of(mechanism).scale();
 
     let mut side_view = Chart::new("along the walk [m]", "z [m]");
@@ -45,44 +59,66 @@ pub fn stick_walk(log: &RunLog, mechanism: &Mechanism) -> String {
             [posture.travelled + posture.forward.dot(&(point.xy() - posture.place)), point.z]
         });
     }
-    floor(&mut side_view);
+    side_view.line(floor_along(&postures, floor, size), FLOOR);
     key_sticks(&mut side_view);
+    side_view.key_line("floor in the middle of the way", FLOOR);
 
-    let every = (INTERVALS[1] / INTERVALS[0]).round() as usize;
     let mut front_view = Chart::new(
-        format!("across the walk, seen from the front [m]; figures every {} s, moved apart", INTERVALS[1]),
+        format!("across the walk, seen from the front [m]; figures every {:.1} s, moved apart", 2.0 * interval),
         "z [m]",
     );
-    for (index, posture) in postures.iter().step_by(every).enumerate() {
+    for (index, posture) in postures.iter().step_by(2).enumerate() {
         let left = Vector2::new(-posture.forward.y, posture.forward.x);
         let moved = size * APART * index as f64;
         draw_stick_figure(&mut front_view, mechanism, &posture.kinematics, |point| {
             [moved + left.dot(&(point.xy() - posture.place)), point.z]
         });
-        front_view.text(format!("{:.1} s", posture.time), [moved, size * TIMES[0]]);
-        front_view.include(&[[moved, size * TIMES[1]]]);
+        let reach = size * APART / 2.0;
+        let heights = (0..=FLOOR_POINTS).map(|point| {
+            let aside = reach * (2.0 * f64::from(point) / f64::from(FLOOR_POINTS) - 1.0);
+            [moved + aside, floor.at(posture.place + left * aside)]
+        });
+        front_view.line(heights, FLOOR);
+        let stands = floor.at(posture.place);
+        front_view.text(format!("{:.1} s", posture.time), [moved, stands + size * TIMES[0]]);
+        front_view.include(&[[moved, stands + size * TIMES[1]]]);
     }
-    floor(&mut front_view);
 
     let shown = rows.first().zip(rows.last()).map_or((0.0, 0.0), |(first, last)| (first.time, last.time));
-    let mut title = format!("The walk from {:.1} to {:.1} s, figures every {} s", shown.0, shown.1, INTERVALS[0]);
-    if let Some(fall) = log.falls().next() {
-        title += &format!("; it fell at {fall:.1} s");
-    }
+    let title = format!("The walk from {:.1} to {:.1} s, figures every {interval:.1} s", shown.0, shown.1);
+    let title = title + log.estimated_text() + &FallMarks::of(log, mechanism).title();
     let charts = [(side_view, SCALES[0]), (front_view, SCALES[1])];
     maps(&title, charts.map(|(chart, scale)| Map { chart, scale: scale / size }).into())
 }
 
-fn floor(chart: &mut Chart) {
-    chart.level(0.0, Pen::solid(EDGE, 1.0));
+/// The floor under the line along which the robot walks, and half a step beyond either end.
+fn floor_along(postures: &[Posture], floor: &FloorHeights, size: f64) -> Vec<Point> {
+    let beyond =
+        |posture: &Posture, distance: f64| (posture.travelled + distance, posture.place + posture.forward * distance);
+    let (Some(first), Some(last)) = (postures.first(), postures.last()) else { return Vec::new() };
+    let way = postures.iter().map(|posture| (posture.travelled, posture.place));
+    let reach = size * BEYOND;
+    let way = std::iter::once(beyond(first, -reach)).chain(way).chain(std::iter::once(beyond(last, reach)));
+    let way: Vec<(f64, Vector2<f64>)> = way.collect();
+    let pieces = way.windows(2).flat_map(|ends| {
+        let [(from, start), (to, end)] = [ends[0], ends[1]];
+        let points = ((end - start).norm() / FLOOR_DISTANCE).ceil().clamp(1.0, 200.0);
+        (0..=points as u32).map(move |point| {
+            let share = f64::from(point) / points;
+            [from + (to - from) * share, floor.at(start + (end - start) * share)]
+        })
+    });
+    pieces.collect()
 }
 
-/// Figures at equal intervals of time.
-fn postures(rows: &[PlantRow], mechanism: &Mechanism) -> Vec<Posture> {
+/// Figures at equal intervals of time, and the interval (s).
+fn postures(rows: &[PlantRow], mechanism: &Mechanism) -> (Vec<Posture>, f64) {
     let tree = Tree::new(mechanism);
+    let lasts = rows.first().zip(rows.last()).map_or(0.0, |(first, last)| last.time - first.time);
+    let interval = INTERVAL * (lasts / INTERVAL / FIGURES_MAX).ceil().max(1.0);
     let mut postures: Vec<Posture> = Vec::new();
     for row in rows {
-        let due = postures.last().map_or(row.time, |last| last.time + INTERVALS[0] - 1e-9);
+        let due = postures.last().map_or(row.time, |last| last.time + interval - 1e-9);
         if row.time < due {
             continue;
         }
@@ -96,5 +132,5 @@ fn postures(rows: &[PlantRow], mechanism: &Mechanism) -> Vec<Posture> {
         });
         postures.push(Posture { time: row.time, kinematics, place, forward, travelled });
     }
-    postures
+    (postures, interval)
 }

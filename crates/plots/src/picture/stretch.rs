@@ -7,9 +7,13 @@ const STRETCH: f64 = 4.0;
 /// Time shown after a fall (s).
 const AFTER_FALL: f64 = 0.4;
 
-/// Start and end of some seconds in the middle of the walk, or up to its first fall (s).
+/// Start and end of the part that was asked for, else of some seconds in the middle of the walk, or up to its first
+/// fall (s).
 pub(super) fn stretch(log: &RunLog) -> (f64, f64) {
     let (Some(first), Some(last)) = (log.plant.first(), log.plant.last()) else { return (0.0, STRETCH) };
+    if log.is_part {
+        return (first.time, last.time);
+    }
     let end = match log.falls().next() {
         Some(fall) => fall + AFTER_FALL,
         None => ((first.time + last.time + STRETCH) / 2.0).min(last.time),

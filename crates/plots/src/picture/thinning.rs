@@ -2,9 +2,6 @@
 
 use super::chart::Point;
 
-/// Most points of a curve: the least and the greatest of each of half as many spans of time.
-const POINTS: usize = 3000;
-
 /// Elements about `interval` apart; `time` says when each was (s).
 pub(super) fn thinned<R>(rows: &[R], interval: f64, time: impl Fn(&R) -> f64) -> impl Iterator<Item = &R> {
     let step = match rows {
@@ -14,9 +11,10 @@ pub(super) fn thinned<R>(rows: &[R], interval: f64, time: impl Fn(&R) -> f64) ->
     rows.iter().step_by((step as usize).max(1))
 }
 
-/// The curve with the least and the greatest value of each span of time, in their order. Gaps stay, however short.
-pub(super) fn outlined(points: &[Point]) -> Vec<Point> {
-    let span = (2 * points.len()).div_ceil(POINTS);
+/// The curve with the least and the greatest value of each span of time, in their order, which are at most so many
+/// points. Gaps stay, however short.
+pub(super) fn outlined(points: &[Point], most: usize) -> Vec<Point> {
+    let span = (2 * points.len()).div_ceil(most);
     if span <= 2 {
         return points.to_vec();
     }
@@ -45,8 +43,8 @@ mod tests {
         points[31_234][1] = -0.5;
         points[40_000..41_000].iter_mut().for_each(|point| point[1] = f64::NAN);
         points[50_007][1] = f64::NAN;
-        let thinned = outlined(&points);
-        assert!(thinned.len() <= POINTS + 6, "{}", thinned.len());
+        let thinned = outlined(&points, 3000);
+        assert!(thinned.len() <= 3006, "{}", thinned.len());
         assert!(thinned.contains(&[31.234, -0.5]));
         let gaps: Vec<f64> = thinned.iter().filter(|point| point[1].is_nan()).map(|point| point[0]).collect();
         assert_eq!(gaps, [40.0, 50.007]);

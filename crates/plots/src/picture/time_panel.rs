@@ -15,6 +15,9 @@ const SUPPORT_CHANGES_MAX: usize = 120;
 /// zero-moment point comes from the other foot, far outside the support sole, and would flatten everything else.
 const LEFT_OUT: f64 = 0.03;
 
+/// Most points of a curve.
+const POINTS: usize = 2000;
+
 /// Builds a panel over time.
 pub(super) struct TimePanel {
     chart: Chart,
@@ -22,18 +25,32 @@ pub(super) struct TimePanel {
     curves: Vec<(Vec<Point>, Pen)>,
     range: (f64, f64),
     left_out: f64,
+    /// Values below are not in the range, whatever is drawn.
+    lowest: f64,
 }
 
 impl TimePanel {
     /// A panel whose range includes all values, and the values `always`.
     pub(super) fn new(y_label: &str, always: &[f64]) -> Self {
         let range = always.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(min, max), y| (min.min(*y), max.max(*y)));
-        Self { chart: Chart::new("", y_label), bands: Vec::new(), curves: Vec::new(), range, left_out: 0.0 }
+        Self {
+            chart: Chart::new("", y_label),
+            bands: Vec::new(),
+            curves: Vec::new(),
+            range,
+            left_out: 0.0,
+            lowest: f64::NEG_INFINITY,
+        }
     }
 
     /// A panel whose range leaves out rare values, but includes the values `always`.
     pub(super) fn usual(y_label: &str, always: &[f64]) -> Self {
         Self { left_out: LEFT_OUT, ..Self::new(y_label, always) }
+    }
+
+    /// Leaves out what is lower.
+    pub(super) fn not_below(self, lowest: f64) -> Self {
+        Self { lowest, ..self }
     }
 
     /// Draws a quantity over time; NaN leaves a gap.
@@ -44,8 +61,19 @@ impl TimePanel {
         if let (Some(min), Some(max)) = (values.get(left_out), values.iter().rev().nth(left_out)) {
             self.range = (self.range.0.min(*min), self.range.1.max(*max));
         }
-        self.curves.push((outlined(&points), pen));
+        self.curves.push((outlined(&points, POINTS), pen));
         self.chart.key_line(label, pen);
+    }
+
+    /// The greatest of the values that were drawn, either way.
+    pub(super) fn greatest(&self) -> f64 {
+        let values = self.curves.iter().flat_map(|(points, _)| points.iter().map(|point| point[1].abs()));
+        values.filter(|value| value.is_finite()).fold(0.0, f64::max)
+    }
+
+    /// Extends the range to values.
+    pub(super) fn include(&mut self, values: &[f64]) {
+        self.range = values.iter().fold(self.range, |(min, max), value| (min.min(*value), max.max(*value)));
     }
 
     /// Draws a quantity of the controller over time; `None` leaves a gap.
@@ -87,6 +115,7 @@ impl TimePanel {
     fn finish(mut self, support_changes: &[f64], fall: &FallMarks, height: f64) -> Panel {
         // An empty run has no values.
         let (least, greatest) = if self.range.0 < self.range.1 { self.range } else { (0.0, 1.0) };
+        let least = least.max(self.lowest);
         let pad = 0.08 * (greatest - least);
         let (bottom, top) = (least - pad, greatest + pad);
         for (corners, pen) in self.bands {
@@ -121,8 +150,12 @@ pub(super) fn picture(
     }
     let mut panels: Vec<Panel> =
         panels.into_iter().map(|panel| panel.finish(&support_changes, &fall, height)).collect();
+    // A panel in which nothing is drawn would be left out, and the legend and the axis of the last one with it.
+    if panels.iter().any(|panel| !panel.chart.is_empty()) {
+        panels.retain(|panel| !panel.chart.is_empty());
+    }
     if let Some(Panel { chart, .. }) = panels.last_mut() {
-        chart.x_label = fall.axis_label("time [s]");
+        chart.x_label = "time [s]".into();
         if !support_changes.is_empty() {
             chart.key_line("support change", SUPPORT_CHANGE);
         }
@@ -131,7 +164,7 @@ pub(super) fn picture(
     stack(&format!("{title}{}", fall.title()), (from, to), panels)
 }
 
-/// Times of the first and the last tick (s).
+/// Times of the first and the last row (s).
 pub(super) fn whole_run(log: &RunLog) -> (f64, f64) {
-    log.controller.first().zip(log.controller.last()).map_or((0.0, 1.0), |(first, last)| (first.time, last.time))
+    log.span().unwrap_or((0.0, 1.0))
 }

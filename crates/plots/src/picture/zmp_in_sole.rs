@@ -3,13 +3,13 @@
 
 use dynamics::Tree;
 use model::{Mechanism, Side};
-use nalgebra::{Isometry3, Point3};
+use nalgebra::{Isometry3, Point3, Vector3};
 
 use super::chart::{Chart, Map, Pen, Point, maps};
 use super::colours::{LEFT, PLANNED, RIGHT, ZMP};
 use super::sole_outline::draw_sole;
 use super::thinning::thinned;
-use crate::run_log::RunLog;
+use crate::run_log::{PlantRow, RunLog};
 
 /// Time between two points of a path (s).
 const BETWEEN: f64 = 0.004;
@@ -20,8 +20,8 @@ const SCALE: f64 = 3200.0;
 const GROUND_PEN: Pen = Pen::solid(ZMP, 0.5);
 const PLANNED_PEN: Pen = Pen::solid(PLANNED, 1.4);
 
-/// Draws the true and the planned zero-moment point of all half-steps in single support. The left sole is above the
-/// right one, as for feet that point to the right.
+/// Draws the true and the planned zero-moment point of all half-steps in single support; where nobody recorded the true
+/// one, the measured one. The left sole is above the right one, as for feet that point to the right.
 pub fn zmp_in_sole(log: &RunLog, mechanism: &Mechanism) -> String {
     let [mut right, mut left] = Side::BOTH.map(|side| chart(log, mechanism, side));
     right.x_label = "x in the sole [m]".into();
@@ -30,8 +30,11 @@ pub fn zmp_in_sole(log: &RunLog, mechanism: &Mechanism) -> String {
     right.include(&left.extent());
     left.key_area("left sole", LEFT);
     left.key_area("right sole", RIGHT);
-    left.key_line("ZMP of the ground", GROUND_PEN);
-    left.key_line("ZMP planned, off support changes", PLANNED_PEN);
+    let is_true = !(log.plant.is_empty() || log.is_estimated);
+    left.key_line(if is_true { "ZMP of the ground" } else { "ZMP measured" }, GROUND_PEN);
+    if !log.controller.is_empty() {
+        left.key_line("ZMP planned, off support changes", PLANNED_PEN);
+    }
     let title = "Zero-moment point in the support sole, single support of all half-steps";
     maps(title, [left, right].map(|chart| Map { chart, scale: SCALE }).into())
 }
@@ -40,20 +43,33 @@ fn chart(log: &RunLog, mechanism: &Mechanism, side: Side) -> Chart {
     let tree = Tree::new(mechanism);
     let mut chart = Chart::new("", "y in the sole [m]");
     draw_sole(&mut chart, mechanism, side, &Isometry3::identity());
-    let duration =
-        log.controller.first().zip(log.controller.last()).map_or(0.0, |(first, last)| last.time - first.time);
-    let between = BETWEEN.max(duration / POINTS);
+    let between = BETWEEN.max(log.span().map_or(0.0, |(first, last)| last - first) / POINTS);
+    let on_sole = |plant: &PlantRow| -> Option<Point> {
+        let sole = plant.footprint(mechanism, &tree, side).sole_to_world;
+        let zmp = plant.zmp_in_world?;
+        // The line through it along the world's z meets the sole, at whatever height that is.
+        let (normal, place) = (sole.rotation * Vector3::z(), sole.translation.vector);
+        let height = place.z - (zmp - place.xy()).dot(&normal.xy()) / normal.z;
+        let zmp = sole.inverse() * Point3::new(zmp.x, zmp.y, height);
+        Some([zmp.x, zmp.y])
+    };
+    if log.controller.is_empty() {
+        for support in log.plant.chunk_by(|row, next| row.bears_alone(side) == next.bears_alone(side)) {
+            let alone = thinned(support, between, |row| row.time).filter(|row| row.bears_alone(side) && !row.fallen);
+            chart.line(alone.filter_map(on_sole).collect::<Vec<Point>>(), GROUND_PEN);
+        }
+        return chart;
+    }
     for half_step in log.half_steps().filter(|half_step| half_step[0].support == side) {
         let (mut planned, mut ground): (Vec<Point>, Vec<Point>) = Default::default();
         for row in thinned(half_step, between, |row| row.time) {
-            let Some(plant) = log.plant_at(row.time).filter(|plant| plant.bears_alone(side)) else { continue };
+            let Some(plant) = log.plant_at(row.time).filter(|plant| plant.bears_alone(side) && !plant.fallen) else {
+                continue;
+            };
             if row.is_off_support_changes() {
                 planned.extend(row.zmp_planned.map(|zmp| [zmp.x, zmp.y]));
             }
-            let to_sole = plant.footprint(mechanism, &tree, side).sole_to_world.inverse();
-            ground.extend(
-                plant.zmp_in_world.map(|zmp| to_sole * Point3::new(zmp.x, zmp.y, 0.0)).map(|zmp| [zmp.x, zmp.y]),
-            );
+            ground.extend(on_sole(plant));
         }
         chart.line(planned, PLANNED_PEN);
         chart.line(ground, GROUND_PEN);

@@ -29,9 +29,10 @@ pub enum CsvError {
 /// The run cannot be read, or a file cannot be written.
 pub fn write_csv(run: &Path, dir: &Path) -> Result<[PathBuf; 2], CsvError> {
     let (mut plant, mut controller) = (CsvFile::create::<PlantRow>(dir)?, CsvFile::create::<ControllerRow>(dir)?);
-    each_row(run, |row| match row {
+    each_row(run, None, None, |row| match row {
         RunRow::Plant(row) => plant.write(&row),
         RunRow::Controller(row) => controller.write(&row),
+        RunRow::Drives(_) => {}
     })?;
     Ok([plant.finish()?, controller.finish()?])
 }

@@ -2,33 +2,47 @@
 
 use std::path::Path;
 
+use model::Mechanism;
 use record::{RecordError, Recording, RunEvent, TickMessage, files_of};
 
-use super::from_recording;
+use super::estimate::Estimator;
 use super::rows::{ControllerRow, PlantRow};
+use super::{DriveRow, from_recording};
 
-/// A row of the plant or of the controller.
+/// A row of the plant, of the controller, or of the drives.
+// Rows are passed on one at a time: boxing the large ones would only cost time.
+#[allow(clippy::large_enum_variant)]
 pub(super) enum RunRow {
     Plant(PlantRow),
     Controller(ControllerRow),
+    Drives(DriveRow),
 }
 
 /// Reads a run: a recording, or the folder that holds it. Returns where its files are truncated,
-/// and what messages of earlier versions lack.
+/// and what messages of earlier versions lack. Drives have rows only with the mechanism that tells their motors; with
+/// an estimator, the plant has the rows that the controller estimates, too.
 ///
 /// # Errors
 /// There is no recording, or it has another version.
-pub(super) fn each_row(run: &Path, mut take: impl FnMut(RunRow)) -> Result<Vec<String>, RecordError> {
+pub(super) fn each_row(
+    run: &Path,
+    mechanism: Option<&Mechanism>,
+    estimator: Option<&Estimator<'_>>,
+    mut take: impl FnMut(RunRow),
+) -> Result<Vec<String>, RecordError> {
     let mut notes = Vec::new();
     for file in files_of(run)? {
         let mut recording = Recording::open(&file)?;
-        let mut tick = TickMessage::default();
+        let (mut tick, mut asked, mut measured) = (TickMessage::default(), None, None);
         while let Some(stamped) = recording.next_event()? {
             match stamped.event {
                 RunEvent::Tick(message) => tick = message,
                 // The controller writes no nonsense; a tick that is lost leaves a gap that every picture bears.
                 RunEvent::Report(message) => {
                     if let Ok(report) = message.checked() {
+                        if let Some((estimator, measured)) = estimator.zip(measured.as_ref()) {
+                            take(RunRow::Plant(estimator.row(stamped.time(), tick.tick, &report, measured)));
+                        }
                         let timing = message.timing();
                         take(RunRow::Controller(from_recording::of_controller(
                             stamped.time(),
@@ -38,6 +52,14 @@ pub(super) fn each_row(run: &Path, mut take: impl FnMut(RunRow)) -> Result<Vec<S
                         )));
                     }
                 }
+                // It responds to the setpoint before.
+                RunEvent::Measurement(message) => {
+                    measured = Some(message);
+                    if let Some((mechanism, asked)) = mechanism.zip(asked.as_ref()) {
+                        take(RunRow::Drives(DriveRow::new(stamped.time(), mechanism, asked, &message)));
+                    }
+                }
+                RunEvent::Setpoint(message) => asked = Some(message),
                 RunEvent::Truth(message) => take(RunRow::Plant(from_recording::of_plant(stamped.time(), &message))),
                 _ => {}
             }

@@ -32,16 +32,16 @@ impl RunLog {
         self.controller.last().map_or(EndPose::default(), |row| row.walk_pose.into())
     }
 
-    /// Where the robot is at the end.
+    /// Where the robot is at the end; `None` if nothing was recorded of it.
     ///
     /// * `turned` – change of heading (rad), full circles included, to half a circle
-    pub(super) fn true_end(&self, mechanism: &Mechanism, turned: f64) -> EndPose {
-        let (Some(first), Some(last)) = (self.plant.first(), self.plant.last()) else { return EndPose::default() };
+    pub(super) fn true_end(&self, mechanism: &Mechanism, turned: f64) -> Option<EndPose> {
+        let (first, last) = self.plant.first().zip(self.plant.last())?;
         let tree = Tree::new(mechanism);
         let [start, end] = [first, last].map(|row| middle_of_soles(row, mechanism, &tree));
         let seen = pose_seen_from(&start, &end);
         let circles = ((turned - seen.heading) / TAU).round();
-        WalkPose { heading: seen.heading + circles * TAU, ..seen }.into()
+        Some(WalkPose { heading: seen.heading + circles * TAU, ..seen }.into())
     }
 }
 
@@ -62,9 +62,9 @@ mod tests {
     #[test]
     fn the_end_is_seen_from_the_middle_of_the_feet_at_the_start() {
         let run = log(8, 0.0);
-        let end = run.measures(&mechanism()).truth;
+        let end = run.measures(&mechanism()).truth.unwrap();
         assert!(end.x_m > 1.0 && end.y_m.abs() < 0.2 && end.heading_deg.abs() < 1e-9, "{end:?}");
-        let circling = log(45, 10_f64.to_radians()).measures(&mechanism()).truth;
+        let circling = log(45, 10_f64.to_radians()).measures(&mechanism()).truth.unwrap();
         assert!((circling.heading_deg - 445.0).abs() < 10.0, "full circles count: {circling:?}");
     }
 }

@@ -49,6 +49,7 @@ pub(super) fn of_plant(time: f64, truth: &TruthMessage) -> PlantRow {
         angles: PerJoint(truth.angles),
         loads: truth.loads,
         com_in_world: truth.com.into(),
+        com_velocity: None,
         zmp_in_world: Some(Vector2::from(truth.zmp)).filter(|zmp| zmp.iter().all(|value| value.is_finite())),
         trunk_tilt: truth.trunk_tilt,
         fallen: truth.fallen != 0,

@@ -2,11 +2,16 @@
 
 use std::path::Path;
 
-use record::RecordError;
+use config::Config;
+use model::Mechanism;
+use record::{RecordError, provenance_of};
 
 use super::each_row::{RunRow, each_row};
+use super::estimate::Estimator;
 use super::rows::{ControllerRow, PlantRow};
+use super::run_totals::RunTotals;
 use super::thinner::{Survey, Thinner};
+use super::{DriveRow, TimeWindow};
 
 /// The log of a run. Of a run of more than some minutes only evenly spaced rows are kept, and those from which it is
 /// measured.
@@ -16,6 +21,14 @@ pub struct RunLog {
     pub plant: Vec<PlantRow>,
     /// Rows of the controller in order of time.
     pub controller: Vec<ControllerRow>,
+    /// Rows of the drives in order of time.
+    pub drives: Vec<DriveRow>,
+    /// What is summed up over all rows of the run.
+    pub totals: RunTotals,
+    /// Whether it is a part of the run only.
+    pub is_part: bool,
+    /// Whether the plant's rows are what the controller estimates: nobody recorded the truth.
+    pub is_estimated: bool,
     /// What the user must know about the recording, one text each: where it is truncated, what it lacks, and what was
     /// left out.
     pub notes: Vec<String>,
@@ -29,37 +42,82 @@ impl RunLog {
     /// # Errors
     /// There is no recording, or it has another version.
     pub fn read(run: &Path) -> Result<Self, RecordError> {
-        let mut survey = Survey::default();
-        let mut drawable = Drawable::default();
-        let notes = each_row(run, |row| match drawable.filter(row) {
+        Self::read_in_detail(run, None)
+    }
+
+    /// Reads a run likewise, with all rows in a window of time, if it is not too long for that.
+    ///
+    /// # Errors
+    /// As above.
+    pub fn read_in_detail(run: &Path, window: Option<TimeWindow>) -> Result<Self, RecordError> {
+        // What is attached may be anything; who draws says so.
+        let mechanism = provenance_of(run)?.file("mechanism.toml").map(|text| Mechanism::from_toml(text, ""));
+        let mechanism = mechanism.and_then(Result::ok);
+        let read = |estimator: Option<&Estimator<'_>>| Self::read_twice(run, window, mechanism.as_ref(), estimator);
+        let mut log = read(None)?;
+        if let (true, false, Some(mechanism)) = (log.plant.is_empty(), log.controller.is_empty(), &mechanism) {
+            log = Self { is_estimated: true, ..read(Some(&Estimator::new(mechanism)))? };
+        }
+        log.notes.extend(log.missing_part());
+        Ok(log)
+    }
+
+    /// Reads a run first to survey it, and then what is kept of it.
+    fn read_twice(
+        run: &Path,
+        window: Option<TimeWindow>,
+        mechanism: Option<&Mechanism>,
+        estimator: Option<&Estimator<'_>>,
+    ) -> Result<Self, RecordError> {
+        let mut survey = Survey::in_detail(window);
+        let (mut drawable, mut totals) = (Drawable::default(), RunTotals::default());
+        let notes = each_row(run, mechanism, estimator, |row| match drawable.filter(row) {
             Some(RunRow::Plant(row)) => survey.note_plant(&row),
-            Some(RunRow::Controller(row)) => survey.note_controller(&row),
+            Some(RunRow::Controller(row)) => {
+                survey.note_controller(&row);
+                totals.note_controller(&row);
+            }
+            Some(RunRow::Drives(row)) => {
+                survey.note_drives();
+                mechanism.iter().for_each(|mechanism| totals.note_drives(mechanism, &row));
+            }
             None => {}
         })?;
-        let mut log = Self { notes, ..Self::default() };
+        let mut log = Self { notes, totals, ..Self::default() };
         log.notes.extend(drawable.note());
         let is_short = survey.is_short();
         let (mut thinner, mut drawable) = (Thinner::new(survey), Drawable::default());
-        each_row(run, |row| match drawable.filter(row) {
+        each_row(run, mechanism, estimator, |row| match drawable.filter(row) {
             Some(RunRow::Plant(row)) if is_short || thinner.keeps_plant(&row) => log.plant.push(row),
             Some(RunRow::Controller(row)) if is_short || thinner.keeps_controller(&row) => log.controller.push(row),
+            Some(RunRow::Drives(row)) if thinner.keeps_drives(&row) => log.drives.push(row),
             _ => {}
         })?;
-        log.notes.extend(log.missing_part());
         Ok(log)
     }
 
     /// What cannot be drawn because one of the processes recorded nothing.
     fn missing_part(&self) -> Option<String> {
-        let (which, rest) = match (self.plant.is_empty(), self.controller.is_empty()) {
-            (true, false) => ("states of the plant (/truth)", "what the controller reports"),
-            (false, true) => ("reports of the controller (/reports)", "the postures of the robot"),
+        let text = match (self.is_estimated || self.plant.is_empty(), self.controller.is_empty()) {
+            (true, false) if self.is_estimated => {
+                "it holds no states of the plant (/truth): the robot is drawn where the controller estimates it, on a \
+                 plane"
+            }
+            (true, false) => "it holds no states of the plant (/truth): only what the controller reports can be drawn",
+            (false, true) => {
+                "it holds no reports of the controller (/reports): only the robot, its footprints and the ground's \
+                 forces can be drawn"
+            }
             _ => return None,
         };
         Some(format!(
-            "it holds no {which}: only {rest} can be drawn. Give controller and plant the same --out, or put both \
-             files into one folder"
+            "{text}. If both were recorded: give controller and plant the same --out, or put both files into one folder"
         ))
+    }
+
+    /// What is added to the title of a picture of the robot: whether it is an estimate.
+    pub(crate) fn estimated_text(&self) -> &'static str {
+        if self.is_estimated { ", as the controller estimates" } else { "" }
     }
 
     /// The plant's row at a time (s) or the first one after it; `None` after the end.
@@ -74,8 +132,8 @@ struct Drawable {
     left_out: u64,
     /// Time of the first row that was left out (s).
     since: f64,
-    /// Times of the last rows of plant and controller (s).
-    last: [f64; 2],
+    /// Times of the last rows of plant, controller and drives (s).
+    last: [f64; 3],
 }
 
 impl Drawable {
@@ -83,10 +141,12 @@ impl Drawable {
         let (time, which) = match &row {
             RunRow::Plant(row) => (row.time, 0),
             RunRow::Controller(row) => (row.time, 1),
+            RunRow::Drives(row) => (row.time, 2),
         };
         let row = match row {
             RunRow::Plant(row) => row.plausible().map(RunRow::Plant),
             RunRow::Controller(row) => row.plausible().map(RunRow::Controller),
+            RunRow::Drives(row) => Some(RunRow::Drives(row)),
         };
         let row = row.filter(|_| time >= self.last[which]);
         if row.is_some() {
@@ -120,7 +180,7 @@ mod tests {
     use super::super::synthetic::{log, mechanism};
     use super::super::write_csv;
     use super::*;
-    use crate::picture;
+    use crate::picture::{FloorHeights, RunPicture, of_run};
 
     /// A message of zeros and some numbers, each anything or absurd.
     fn message<M: WireLayout>(numbers: &[(f64, u64)]) -> M {
@@ -158,9 +218,9 @@ mod tests {
             writer.finish().unwrap();
             let (log, mechanism) = (RunLog::read(&file).unwrap(), mechanism());
             log.measures(&mechanism);
-            for (name, svg) in picture::of_run(&log, &mechanism) {
-                assert!(!svg.contains("NaN") && !svg.contains("inf\""), "{name}");
-                assert!(svg.len() < 4 << 20, "{name} has {} bytes", svg.len());
+            for RunPicture { file, svg, .. } in of_run(&log, &mechanism, &FloorHeights::PLANE).drawn {
+                assert!(!svg.contains("NaN") && !svg.contains("inf\""), "{file}");
+                assert!(svg.len() < 4 << 20, "{file} has {} bytes", svg.len());
             }
             write_csv(&file, folder.path()).unwrap();
         }
@@ -186,7 +246,8 @@ mod tests {
         let thinned = RunLog {
             controller: whole.controller.iter().filter(|row| thinner.keeps_controller(row)).cloned().collect(),
             plant: whole.plant.iter().filter(|row| thinner.keeps_plant(row)).cloned().collect(),
-            notes: Vec::new(),
+            totals: whole.totals.clone(),
+            ..RunLog::default()
         };
         assert!(thinned.controller.len() < whole.controller.len() && thinned.plant.len() < whole.plant.len() * 2 / 3);
         assert_eq!(thinned.measures(&mechanism()), whole.measures(&mechanism()));

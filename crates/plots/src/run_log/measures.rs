@@ -6,10 +6,10 @@ use model::Mechanism;
 use nalgebra::Vector2;
 use serde::Serialize;
 
-use super::{EndPose, Fall, FootPlacement, RunLog};
+use super::{CostOfTransport, DriveEnergy, EndPose, Fall, FootPlacement, JointLoad, LeastMargin, RunLog};
 
 /// A run in numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Measures {
     /// Half-steps completed.
     pub half_steps: u64,
@@ -19,12 +19,23 @@ pub struct Measures {
     /// Where the controller estimates to have come.
     #[serde(flatten)]
     pub estimated: EndPose,
-    /// Where the robot has come.
+    /// Where the robot has come; `None` if its true states were not recorded.
     #[serde(rename = "true")]
-    pub truth: EndPose,
+    pub truth: Option<EndPose>,
     /// Least margin of the measured ZMP (mm) away from support changes, at which it moves from foot to foot; `None` if
     /// it was never measured.
     pub min_margin_mm: Option<f64>,
+    /// The same with its place in the walk.
+    pub least_margin: Option<LeastMargin>,
+    /// Root of the mean square of the distance between the measured and the planned ZMP (mm), away from support
+    /// changes; `None` if it was never measured.
+    pub zmp_error_rms_mm: Option<f64>,
+    /// Energy of the drives; `None` if they were not recorded.
+    pub energy: Option<DriveEnergy>,
+    /// Energy over weight and distance; `None` if the drives were not recorded, or the robot hardly went anywhere.
+    pub cost_of_transport: Option<CostOfTransport>,
+    /// The greatest loads on the drives, joint by joint; empty if they were not recorded.
+    pub joint_loads: Vec<JointLoad>,
     /// Number of falls.
     pub falls: usize,
     /// The first fall; absent in JSON if there is none.
@@ -37,14 +48,19 @@ impl RunLog {
     pub fn measures(&self, mechanism: &Mechanism) -> Measures {
         let prints = self.footprints(mechanism);
         let done = self.controller.first().zip(self.controller.last());
-        let rows = self.controller.iter().filter(|row| row.is_off_support_changes());
-        let margins = rows.filter_map(|row| row.margin).filter(|margin| margin.is_finite());
+        let distance_m = distance(&prints);
+        let (least_margin, drives) = (self.least_margin(), &self.totals.drives);
         Measures {
             half_steps: done.map_or(0, |(first, last)| last.half_step.saturating_sub(first.half_step)),
-            distance_m: distance(&prints),
+            distance_m,
             estimated: self.estimated_end(),
-            truth: self.true_end(mechanism, heading_change(&prints)),
-            min_margin_mm: margins.min_by(f64::total_cmp).map(|margin| margin * 1e3),
+            truth: if self.is_estimated { None } else { self.true_end(mechanism, heading_change(&prints)) },
+            min_margin_mm: least_margin.map(|least| least.margin_mm),
+            least_margin,
+            zmp_error_rms_mm: self.totals.zmp_error.rms().map(|error| error * 1e3),
+            energy: drives.energy(mechanism),
+            cost_of_transport: drives.cost_of_transport(mechanism, distance_m),
+            joint_loads: drives.loads(mechanism),
             falls: self.falls().count(),
             fall: self.first_fall(mechanism),
         }
@@ -88,7 +104,7 @@ mod tests {
         // The first middle lies between both feet at rest, the second half a step ahead, the others a step apart.
         assert!((measures.distance_m - (0.125 + 7.0 * 0.25)).abs() < 1e-12, "{measures:?}");
         assert_eq!((measures.half_steps, measures.falls), (8, 0));
-        assert!(measures.truth.heading_deg.abs() < 1e-9);
+        assert!(measures.truth.is_some_and(|end| end.heading_deg.abs() < 1e-9));
         assert!(measures.min_margin_mm.is_some_and(|margin| (margin - 20.0).abs() < 1e-12));
     }
 

@@ -25,6 +25,7 @@ impl PlantRow {
             && within(FAR, self.com_in_world.iter())
             && within(LARGE, [&self.trunk_tilt]);
         self.zmp_in_world = near(self.zmp_in_world);
+        self.com_velocity = self.com_velocity.filter(|velocity| within(LARGE, velocity.iter()));
         is_plausible.then_some(self)
     }
 }

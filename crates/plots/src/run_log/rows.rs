@@ -1,6 +1,6 @@
 //! Rows of the log: the plant and the controller at one tick.
 
-use interface::{AddedAngles, DestinationProgress, WalkPose};
+use interface::{AddedAngles, DestinationProgress, Mode, WalkPose};
 use model::{ComState, Joint, JointVector, Side};
 use nalgebra::{Isometry3, Vector2, Vector3};
 use serde::Serialize;
@@ -37,6 +37,9 @@ pub struct PlantRow {
     /// Centre of mass in world coordinates (m).
     #[serde(serialize_with = "columns::vector")]
     pub com_in_world: Vector3<f64>,
+    /// Its velocity (m/s), where it is estimated; true states have none.
+    #[serde(skip)]
+    pub com_velocity: Option<Vector3<f64>>,
     /// Zero-moment point of both feet in world coordinates (m); `None` in the air.
     #[serde(serialize_with = "columns::maybe_point")]
     pub zmp_in_world: Option<Vector2<f64>>,
@@ -117,6 +120,11 @@ impl ControllerRow {
     /// Whether the planned zero-moment point is in the support sole: near a support change it moves from foot to foot.
     pub fn is_off_support_changes(&self) -> bool {
         (0.05..0.95).contains(&self.progress)
+    }
+
+    /// Whether the controller balances the robot: it has not fallen, and no fault has stopped it.
+    pub fn is_balancing(&self) -> bool {
+        ![Mode::Fallen, Mode::Faulted].map(Mode::text).contains(&self.mode)
     }
 }
 

@@ -33,14 +33,18 @@ impl PlantRow {
 
 impl RunLog {
     /// The true divergent component of motion `c + ċ·√(z/g)` (the capture point) at a row of the plant, in world
-    /// coordinates (m). The log has no velocities: `ċ` is the difference of the rows before and after. `None` if there
-    /// is only one row.
+    /// coordinates (m). True states have no velocities: `ċ` is the difference of the rows before and after. `None` if
+    /// there is only one row, or the velocity is not estimated.
     pub fn divergent_component(&self, row: usize) -> Option<Vector2<f64>> {
         let here = self.plant.get(row)?;
         let before = &self.plant[row.saturating_sub(1)];
         let after = self.plant.get(row + 1).unwrap_or(here);
         let between = after.time - before.time;
-        let velocity = (after.com_in_world - before.com_in_world).xy() / between;
+        let velocity = if self.is_estimated {
+            here.com_velocity?.xy()
+        } else {
+            (after.com_in_world - before.com_in_world).xy() / between
+        };
         let swing_time = (here.com_in_world.z.max(0.0) / GRAVITY).sqrt();
         (between > 0.0).then(|| here.com_in_world.xy() + velocity * swing_time)
     }

@@ -1,11 +1,12 @@
 //! For tests: the log of a robot whose joints do not move while its soles go along a line or a circle.
 
 use config::Config;
-use interface::WalkPose;
-use model::{JointVector, Mechanism, Side};
+use interface::{Setpoint, WalkPose};
+use model::{Joint, JointVector, Mechanism, Side};
 use nalgebra::{Isometry3, Vector2, Vector3};
+use wire::{MeasurementMessage, SetpointMessage, WireLayout};
 
-use super::{ControllerRow, PlantRow, RunLog};
+use super::{ControllerRow, DriveRow, PlantRow, RunLog};
 
 /// Ticks per half-step; a tick takes 0.1 s.
 const TICKS: u64 = 6;
@@ -33,6 +34,7 @@ pub(crate) fn log(half_steps: u64, turn: f64) -> RunLog {
             angles: JointVector::ZERO,
             loads,
             com_in_world: Vector3::new(1.0, 2.0, 0.9),
+            com_velocity: None,
             zmp_in_world: Some(right_sole_to_world.translation.vector.xy()),
             trunk_tilt: 0.1,
             fallen: false,
@@ -64,5 +66,20 @@ pub(crate) fn log(half_steps: u64, turn: f64) -> RunLog {
             missed: 0,
         });
     }
+    log.controller.iter().for_each(|row| log.totals.note_controller(row));
     log
+}
+
+/// A measurement in which all motors have a current (A), and all else is zero.
+pub(crate) fn measurement(current: f64) -> MeasurementMessage {
+    let mut measurement = MeasurementMessage::decode(&vec![0; MeasurementMessage::layout().size]).expect("zeros");
+    measurement.motor_current = [current; Joint::COUNT];
+    measurement
+}
+
+/// The drives at a time (s), asked for nothing, with a current (A) each.
+pub(crate) fn drives_at(time: f64, mechanism: &Mechanism, current: impl Fn(Joint) -> f64) -> DriveRow {
+    let mut measured = measurement(0.0);
+    measured.motor_current = Joint::ALL.map(current);
+    DriveRow::new(time, mechanism, &SetpointMessage::new(0, 0, &Setpoint::default()), &measured)
 }

@@ -2,11 +2,16 @@
 //! the summary depends on how long the run was.
 
 use super::rows::{ControllerRow, PlantRow};
+use super::{DriveRow, TimeWindow};
 
 /// Most evenly spaced rows of controller and plant that are kept: those of five minutes at the usual rate. Less than
 /// 150 MB.
 const CONTROLLER_ROWS: u64 = 300_000;
 const PLANT_ROWS: u64 = 100_000;
+/// Most evenly spaced rows of the drives, which are larger. Less than 50 MB.
+const DRIVE_ROWS: u64 = 40_000;
+/// Longest window in which all rows are kept (s).
+const WINDOW_MAX: f64 = 60.0;
 /// Time around a fall, and in the middle of the run, in which all rows are kept (s): the pictures show it in detail.
 const IN_DETAIL: f64 = 6.0;
 
@@ -15,6 +20,9 @@ const IN_DETAIL: f64 = 6.0;
 pub(super) struct Survey {
     controller_rows: u64,
     plant_rows: u64,
+    drive_rows: u64,
+    /// The part of the run that is asked for in detail.
+    window: Option<TimeWindow>,
     half_steps: Vec<HalfStepSpan>,
     /// Times of the first and of the last row of the plant (s).
     span: Option<(f64, f64)>,
@@ -38,6 +46,7 @@ pub(super) struct Thinner {
     survey: Survey,
     controller_row: u64,
     plant_row: u64,
+    drive_row: u64,
     /// The half-step of the next row of the controller.
     half_step: usize,
     /// The times, in their order, whose next row of the plant is kept (s), and the first that is not yet passed.
@@ -47,11 +56,20 @@ pub(super) struct Thinner {
 }
 
 impl Survey {
+    /// A survey of a run of which a part is asked for in detail.
+    pub(super) fn in_detail(window: Option<TimeWindow>) -> Self {
+        Self { window: window.filter(|window| window.to - window.from <= WINDOW_MAX), ..Self::default() }
+    }
+
+    pub(super) fn note_drives(&mut self) {
+        self.drive_rows += 1;
+    }
+
     pub(super) fn note_controller(&mut self, row: &ControllerRow) {
         let number = self.controller_rows;
         self.controller_rows += 1;
         let margin = row.margin.unwrap_or(f64::INFINITY);
-        let margins = [margin, if row.is_off_support_changes() { margin } else { f64::INFINITY }];
+        let margins = [margin, if row.is_off_support_changes() && row.is_balancing() { margin } else { f64::INFINITY }];
         match self.half_steps.last_mut().filter(|span| span.index == row.half_step) {
             Some(span) => {
                 (span.rows[1], span.times[1]) = (number, row.time);
@@ -84,6 +102,7 @@ impl Survey {
     fn is_in_detail(&self, time: f64) -> bool {
         let middle = self.span.map(|(first, last)| (first + last) / 2.0);
         [self.first_fall, middle].into_iter().flatten().any(|shown| (time - shown).abs() < IN_DETAIL)
+            || self.window.is_some_and(|window| window.contains(time))
     }
 }
 
@@ -92,7 +111,16 @@ impl Thinner {
         let first = survey.half_steps.first().map(|span| span.times[0]);
         let middles = survey.half_steps.iter().map(|span| (span.times[0] + span.times[1]) / 2.0);
         let wanted = first.into_iter().chain(middles).collect();
-        Self { survey, controller_row: 0, plant_row: 0, half_step: 0, wanted, next_wanted: 0, was_fallen: false }
+        Self {
+            survey,
+            controller_row: 0,
+            plant_row: 0,
+            drive_row: 0,
+            half_step: 0,
+            wanted,
+            next_wanted: 0,
+            was_fallen: false,
+        }
     }
 
     pub(super) fn keeps_controller(&mut self, row: &ControllerRow) -> bool {
@@ -103,6 +131,12 @@ impl Thinner {
         number.is_multiple_of(self.survey.controller_rows.div_ceil(CONTROLLER_ROWS).max(1))
             || spans.get(self.half_step).is_some_and(|span| span.rows.contains(&number))
             || self.survey.is_in_detail(row.time)
+    }
+
+    pub(super) fn keeps_drives(&mut self, row: &DriveRow) -> bool {
+        let number = self.drive_row;
+        self.drive_row += 1;
+        number.is_multiple_of(self.survey.drive_rows.div_ceil(DRIVE_ROWS).max(1)) || self.survey.is_in_detail(row.time)
     }
 
     pub(super) fn keeps_plant(&mut self, row: &PlantRow) -> bool {

@@ -1,0 +1,70 @@
+//! What a page shows of a walk, whoever walks: processes, a recording, or the page itself.
+//!
+//! A page gets the robot once ([`RobotDrawing`]) and then frames ([`ViewFrame`]), each the state of one instant, which
+//! a [`FrameAssembler`] makes of reports and measurements. [`ToPage`] and [`FromPage`] are the messages to and from a
+//! page; what it draws of them is in `tools/view`.
+
+mod frame_assembler;
+mod message;
+mod placement;
+mod robot_drawing;
+mod rounded;
+mod view_frame;
+
+pub use frame_assembler::FrameAssembler;
+pub use message::{AskedPush, FromPage, RunNote, ToPage};
+pub use robot_drawing::RobotDrawing;
+pub use rounded::rounded;
+pub use view_frame::ViewFrame;
+
+#[cfg(test)]
+mod tests {
+    use config::Config;
+    use interface::{Faults, HalfStep, Measurement, Mode, Odometry, Report};
+    use model::{JointVector, Mechanism, Side, Wrench};
+    use nalgebra::{Quaternion, Vector2, Vector3};
+
+    /// The paper's robot.
+    pub(crate) fn mechanism() -> Mechanism {
+        Mechanism::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mechanism.toml")).expect("it loads")
+    }
+
+    /// What sensors say of a robot that stands straight.
+    pub(crate) fn measured() -> Measurement {
+        Measurement {
+            sample: 0,
+            angles: JointVector::ZERO,
+            rates: JointVector::ZERO,
+            feet: [Wrench::ZERO; 2],
+            orientation: Quaternion::identity(),
+            angular_rate: Vector3::zeros(),
+            currents: JointVector::ZERO,
+            specific_force: Vector3::z() * model::GRAVITY,
+            missing: interface::SensorGroups::NONE,
+        }
+    }
+
+    /// What a controller reports of a robot that stands.
+    pub(crate) fn reported() -> Report {
+        Report {
+            mode: Mode::Standing,
+            half_step: HalfStep::first(Side::Right),
+            speed: 1.0,
+            turn: 0.0,
+            extension: 0.0,
+            sidestep: 0.0,
+            zmp_in_support: None,
+            zmp_planned: None,
+            margin: None,
+            lean: Vector2::zeros(),
+            added: None,
+            com_planned: None,
+            com_measured: None,
+            odometry: Odometry::default(),
+            destination: None,
+            capturability: None,
+            estimate: interface::StateEstimate::default(),
+            faults: Faults::default(),
+        }
+    }
+}
