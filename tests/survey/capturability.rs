@@ -24,7 +24,7 @@ const STEP: f64 = 4.0;
 const RESOLUTION: f64 = 2.0;
 /// The pushes, as shares of their limits.
 const SHARES: std::ops::Range<f64> = 0.5..1.5;
-/// When the report is asked, after the push began (s) and after touchdowns (ticks).
+/// When the report is asked: at which touchdown after the push, and how many ticks after it.
 const AFTER_TOUCHDOWN: [(usize, u64); 5] = [(1, 1), (1, 50), (1, 100), (2, 1), (3, 1)];
 
 /// What became of a push.
@@ -55,7 +55,7 @@ pub(crate) fn survey(options: &Options) -> bool {
     }
     println!("{} pushes of {SHARES:?} of what is survived:", pushed.len());
     table::print(
-        &["reported at", "walks, told so", "walks, told lost", "falls, told none", "falls, told so", "right"],
+        &["reported at", "caught", "caught, reported lost", "fell, not reported", "fell, reported lost", "right"],
         &rows,
     );
     by_share(&pushed);
