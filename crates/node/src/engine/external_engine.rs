@@ -113,7 +113,7 @@ impl ExternalEngine {
     /// The engine has ended, or its state is not finite.
     pub fn step(&mut self, plant: &mut Plant, setpoint: &Setpoint) -> Result<Measurement, EngineError> {
         let change = self.change(plant).map(|change| in_json(&change)).transpose()?.unwrap_or_default();
-        self.send(&encode_setpoint(setpoint, change.len()))?;
+        self.send(&encode_setpoint(setpoint, plant.periods(), change.len()))?;
         if !change.is_empty() {
             self.send(change.as_bytes())?;
         }
