@@ -110,7 +110,7 @@ impl Walking {
         Self::new(driver, plant)
     }
 
-    /// A robot at the beginning of the half-step of its configuration's folder, as `halfstep import` writes one.
+    /// A robot at the beginning of the half-step of its configuration folder, as `halfstep import` writes one.
     pub fn of_robot(folder: &Path, seed: u64) -> Self {
         let file = |name: &str| folder.join(name);
         let mechanism = Mechanism::load(file("mechanism.toml")).unwrap_or_else(|error| panic!("{error}"));

@@ -56,6 +56,41 @@ fn measured_com_is_near_the_plan_and_unknown_in_the_tick_of_a_support_change() {
     }
 }
 
+/// A foot that has borne for some time is in contact, also in the tick in which the other foot becomes the support, and
+/// with a sample in every fifth tick only; one that has not is none. On tiles a foot may land late.
+#[test]
+fn the_feet_in_contact_are_those_that_bear() {
+    let bearing = 0.4 * mechanism().mass() * model::GRAVITY;
+    for every in [1, 5] {
+        let mut plant = plant_parameters();
+        plant.unevenness.height = 0.01;
+        let mut walking = Walking::begin_with(&mechanism(), &controller_parameters(), &plant, 0);
+        let (mut borne, mut free) = ([0; 2], [0; 2]);
+        let (mut seen, mut changes, mut half_step) = (0, 0, 0);
+        for number in 0..6000 {
+            let measurement = walking.measurement;
+            let sample = (number % every == 0).then_some(&measurement);
+            let tick = walking.driver.step(PERIOD, sample, |_| None).tick;
+            walking.measurement = walking.plant.step(&tick.setpoint);
+            changes += u64::from(std::mem::replace(&mut half_step, tick.report.half_step.index) != half_step);
+            for foot in 0..2 {
+                let force = measurement.feet[foot].force.z;
+                borne[foot] = if force > bearing { borne[foot] + 1 } else { 0 };
+                free[foot] = if force < 1.0 { free[foot] + 1 } else { 0 };
+                if borne[foot] > 40 {
+                    assert!(tick.report.estimate.contact[foot], "tick {number}: {:?}", tick.report.half_step);
+                    seen += 1;
+                }
+                if free[foot] > 40 {
+                    assert!(!tick.report.estimate.contact[foot], "tick {number}: {:?}", tick.report.half_step);
+                    seen += 1;
+                }
+            }
+        }
+        assert!(changes >= 8 && seen > 4000, "{changes} support changes, {seen} ticks compared");
+    }
+}
+
 #[test]
 fn only_preview_adds_angles_to_the_nominal() {
     let greatest = |compensation, seconds| {

@@ -307,6 +307,7 @@ impl Controller {
             self.feedback.change_support(mirror, heading);
             self.landing.change_support(mirror);
             self.zmp_estimator.change_support(mirror);
+            self.contact.change_support();
             self.support_foot = None;
             self.ground_slope.change_support(heading);
             self.com_filter.change_support(heading);
@@ -342,7 +343,7 @@ impl Controller {
             sidestep: gait.command().sidestep,
             odometry: self.odometry.report(&gait.landings()),
             destination: self.destination_progress(),
-            zmp_in_support: self.contact.zmp.filter(|_| is_same_foot),
+            zmp_in_support: self.contact.zmp,
             zmp_planned: has_plan.then_some(self.reference.zmp),
             margin: Some(self.contact.margin).filter(|margin| margin.is_finite()),
             lean: self.feedback.lean(),

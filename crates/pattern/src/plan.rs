@@ -152,9 +152,7 @@ impl Plan {
         measured: &MeasuredBalance,
         elapsed: f64,
     ) -> Option<StepChoice> {
-        let knots = IncrementalReplan::knots_until_takeover(elapsed);
-        let lead = (2.0 + f64::from(knots) - elapsed / KNOT).round() as u32;
-        self.foot_trajectory.choose_step(model, &self.landings, measured, [knots, lead])
+        self.foot_trajectory.choose_step(model, &self.landings, measured, takeover(elapsed))
     }
 
     /// The error of the divergent component that the best step leaves (m); `None` late in a half-step, and in a stand.
@@ -166,9 +164,7 @@ impl Plan {
         measured: &MeasuredBalance,
         elapsed: f64,
     ) -> Option<Vector2<f64>> {
-        let knots = IncrementalReplan::knots_until_takeover(elapsed);
-        let lead = (2.0 + f64::from(knots) - elapsed / KNOT).round() as u32;
-        let problem = self.foot_trajectory.step_problem(model, &self.landings, measured, [knots, lead])?;
+        let problem = self.foot_trajectory.step_problem(model, &self.landings, measured, takeover(elapsed))?;
         Some(problem.shortfall())
     }
 
@@ -289,6 +285,14 @@ impl Plan {
             && (made.heading - planned.heading).abs() < 1e-9
             && ahead.walk.half_step().index == end.index
     }
+}
+
+/// Knots until a change of the plan takes over, and knots from now until it is played.
+///
+/// * `elapsed` – time since the present knot (s)
+fn takeover(elapsed: f64) -> [u32; 2] {
+    let knots = IncrementalReplan::knots_until_takeover(elapsed);
+    [knots, (2.0 + f64::from(knots) - elapsed / KNOT).round() as u32]
 }
 
 /// The centre of mass along x and y of the walk frame, from its position (m) and velocity (m/s) in support coordinates.

@@ -105,7 +105,9 @@ impl Plant {
         for index in 1..=count {
             let lead = f64::from(count - index) * step;
             let number = self.periods * u64::from(count) + u64::from(index);
-            self.integrate(setpoint, lead, step, [number - 1, number].map(|number| number as f64 * step));
+            // A period's last step ends exactly where the next period begins, whatever the number of steps.
+            let time = |number: u64| number as f64 / f64::from(count) * self.period;
+            self.integrate(setpoint, lead, step, [number - 1, number].map(time));
         }
         self.periods += 1;
         self.measure()
@@ -123,6 +125,11 @@ impl Plant {
         self.trunk_velocity = None;
         self.robot = moving;
         measurement
+    }
+
+    /// Number of control periods since the start.
+    pub fn periods(&self) -> u64 {
+        self.periods
     }
 
     /// Time since the start (s).

@@ -49,6 +49,13 @@ impl ContactEstimate {
         Self { loads: [weight, 0.0], in_contact: [true, false], ..Self::AIRBORNE }
     }
 
+    /// The other foot supports from now on. Where the ground pushes is known in its frame from the next sample on.
+    pub fn change_support(&mut self) {
+        self.loads.reverse();
+        self.in_contact.reverse();
+        self.zmp = None;
+    }
+
     /// Share of the load on the swing foot (-); 0 in the air.
     pub fn swing_share(&self) -> f64 {
         let [support, swing] = [0, 1].map(|foot| if self.in_contact[foot] { self.loads[foot] } else { 0.0 });

@@ -47,9 +47,9 @@ def check_root(told, shift, periods):
     coms = [centre_of_mass(robot) for robot in robots]
     for pair in (states, lefts, coms):
         assert np.abs(pair[0] - pair[1]).max() < 1e-9, f"an oblique root at {shift}: {pair}"
-    for _ in range(periods):
+    for period in range(periods):
         for robot in robots:
-            robot.advance()
+            robot.advance(period)
         error = np.abs(robots[0].state[:53] - robots[1].state[:53]).max()
         assert error < 1e-6, f"an oblique root makes a difference of {error}"
     assert periods == 0 or robots[0].state[[55, 61]].any(), "no foot has come to the floor"
@@ -80,8 +80,8 @@ def check_peculiar(told):
     robot = plant.UrdfRobot(told)
     mass = Reader(urdf).mass
     assert abs(mujoco.mj_getTotalmass(robot.model) / mass - 1) < 1e-6, "a massless link weighs"
-    for _ in range(300):
-        robot.advance()
+    for period in range(300):
+        robot.advance(period)
     for place, at in robot.held:
         assert abs(robot.data.qpos[place] - at) < 0.035, f"a held joint is at {robot.data.qpos[place]}, not at {at}"
     for each in (setup["held"], [*setup["held"], *held, held[0]], [*setup["held"], *held, servo | {"urdf": "same"}]):

@@ -21,8 +21,8 @@ def check_pipes(name, told):
         assert (hello["setpoint"], hello["state"]) == (plant.SETPOINT, plant.STATE), hello
         for period in range(5):
             robot.setpoint[0] = 0.001 * period
-            robot.advance()
-            process.stdin.write(np.append(robot.setpoint, 0.0).astype("<f8").tobytes())
+            robot.advance(period)
+            process.stdin.write(np.append(robot.setpoint, [period, 0]).astype("<f8").tobytes())
             process.stdin.flush()
             state = np.frombuffer(process.stdout.read(8 * plant.STATE), "<f8")
             assert (state == robot.state).all(), f"{name}: another state through the pipe"

@@ -13,10 +13,10 @@ The robot comes in one of two forms. `"mjcf"` is a complete model of the twenty-
 which then is part of the model.
 """
 
-PROTOCOL = 4
+PROTOCOL = 5
 JOINTS = 20
-# angles, rates, feed-forward torques; number of bytes of a change that follows
-SETPOINT = 3 * JOINTS + 1
+# angles, rates, feed-forward torques; control periods since the plant's start; number of bytes of a change that follows
+SETPOINT = 3 * JOINTS + 2
 # right sole: place, quaternion w x y z, angular rate, velocity; angles, rates; ground's force and moment on the right
 # and on the left foot, about the right sole's origin; motor torques. All but the joints' in world axes.
 STATE = 3 + 4 + 3 + 3 + 2 * JOINTS + 2 * 6 + JOINTS

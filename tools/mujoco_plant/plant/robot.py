@@ -21,7 +21,8 @@ class Robot:
 
     def __init__(self, told):
         self.steps = told["steps_per_period"]
-        self.step_s = told["period_s"] / self.steps
+        self.period_s = told["period_s"]
+        self.step_s = self.period_s / self.steps
         self.spec, sole = self._load(told)
         self.spec.option.timestep = self.step_s
         self.floor = Floor(self.spec, sole)
@@ -29,7 +30,6 @@ class Robot:
         self.model = self.spec.compile()
         self.data = mujoco.MjData(self.model)
         self.pushes = told["pushes"]
-        self.periods = 0
 
         names = [self._joint(name) for name in told["joints"]]
         powered = [self.model.joint(name) for name, _ in names]
@@ -95,8 +95,11 @@ class Robot:
         data.qvel[0:3] = start["velocity"]
         data.qvel[3:6] = rotation.reshape(3, 3).T @ start["angular_rate"]
 
-    def advance(self):
-        """Moves on by one control period towards `setpoint`, and fills `state`."""
+    def advance(self, periods):
+        """Moves on by one control period, after `periods` others, towards `setpoint`, and fills `state`.
+
+        The plant's time goes on where the robot is held, too, and nothing is simulated here.
+        """
         angles, rates, feed_forward = self.setpoint[:, self.powered]
         data = self.data
         for number in range(self.steps):
@@ -104,19 +107,22 @@ class Robot:
             target = angles - lead * rates
             data.ctrl[self.actuators] = self.signs * (self.stiffness * target + self.damping * rates + feed_forward)
             if self.pushes:
-                self._push((self.periods * self.steps + number) * self.step_s)
+                self._push(*(self._time(periods * self.steps + step) for step in (number, number + 1)))
             mujoco.mj_step(self.model, data)
-        self.periods += 1
         self._tell()
 
-    def _push(self, start):
-        """The mean force over the step, on the link's centre of mass, as `plant::Push::force_over`."""
+    def _time(self, step):
+        """When an integration step begins (s), in the bits of `plant::Plant::time` where a period begins."""
+        return step / self.steps * self.period_s
+
+    def _push(self, start, end):
+        """The mean force over a step, on the link's centre of mass, as `plant::Push::force_over`."""
         data = self.data
         data.qfrc_applied[:] = 0
         for push in self.pushes:
-            covered = min(start + self.step_s, push["start"] + push["duration"]) - max(start, push["start"])
+            covered = min(end, push["start"] + push["duration"]) - max(start, push["start"])
             if covered > 0:
-                force = np.array(push["impulse"]) * (covered / (push["duration"] * self.step_s))
+                force = np.array(push["impulse"]) * (covered / (push["duration"] * (end - start)))
                 body, point = self._pushed(push["body"])
                 mujoco.mj_applyFT(self.model, data, force, np.zeros(3), point, body, data.qfrc_applied)
 

@@ -32,9 +32,9 @@ def serve():
     # Nobody left to answer is as good an end as no more setpoints.
     with contextlib.suppress(BrokenPipeError):
         while len(record := sys.stdin.buffer.read(8 * SETPOINT)) == 8 * SETPOINT:
-            *setpoint, change_bytes = np.frombuffer(record, "<f8")
+            *setpoint, periods, change_bytes = np.frombuffer(record, "<f8")
             if change_bytes:
                 robot.change(json.loads(sys.stdin.buffer.read(int(change_bytes))))
             robot.setpoint[:] = np.reshape(setpoint, (3, JOINTS))
-            robot.advance()
+            robot.advance(int(periods))
             os.write(STATES, robot.state.astype("<f8", copy=False).tobytes())

@@ -134,10 +134,10 @@ impl EngineSetup {
         })
     }
 
-    /// The same robot that begins in another state, and is told of pushes later.
+    /// The same robot that begins in another state.
     #[must_use]
     pub(super) fn beginning(self, start: &RobotState) -> Self {
-        Self { start: InitialState::of(start), pushes: Vec::new(), told_pushes: Vec::new(), ..self }
+        Self { start: InitialState::of(start), ..self }
     }
 
     /// The same run with the robot that the text of a URDF describes, from which the mechanism was imported.

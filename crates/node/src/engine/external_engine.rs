@@ -46,8 +46,6 @@ pub struct ExternalEngine {
     /// What a thread has read of the engine's output: reading by itself would wait for a hung engine without end.
     answers: Receiver<std::io::Result<Answer>>,
     floor: Option<LaidFloor>,
-    /// The plant's time when the engine's began (s); `None` until its first period.
-    began: Option<f64>,
     /// The pushes that the engine knows.
     told_pushes: Vec<Push>,
     /// The links that it can push, by their names.
@@ -89,7 +87,6 @@ impl ExternalEngine {
             setpoints,
             answers,
             floor: setup.laid_floor.clone(),
-            began: Some(0.0),
             told_pushes: setup.told_pushes.clone(),
             links: Vec::new(),
             name: String::new(),
@@ -110,20 +107,13 @@ impl ExternalEngine {
         Ok(engine)
     }
 
-    /// The same engine, whose time begins with the first period that it computes.
-    #[must_use]
-    pub(super) fn beginning_later(mut self) -> Self {
-        self.began = None;
-        self
-    }
-
     /// Moves the plant's robot on by one control period.
     ///
     /// # Errors
     /// The engine has ended, or its state is not finite.
     pub fn step(&mut self, plant: &mut Plant, setpoint: &Setpoint) -> Result<Measurement, EngineError> {
         let change = self.change(plant).map(|change| in_json(&change)).transpose()?.unwrap_or_default();
-        self.send(&encode_setpoint(setpoint, change.len()))?;
+        self.send(&encode_setpoint(setpoint, plant.periods(), change.len()))?;
         if !change.is_empty() {
             self.send(change.as_bytes())?;
         }
@@ -141,7 +131,6 @@ impl ExternalEngine {
 
     /// What the engine does not know yet.
     fn change(&mut self, plant: &Plant) -> Option<Change> {
-        let began = *self.began.get_or_insert_with(|| plant.time());
         let floor = self.floor.as_mut().and_then(|floor| floor.follow(plant));
         let pushes: Vec<Push> = plant.disturbances.pushes.iter().copied().filter(|push| self.is_news(push)).collect();
         if floor.is_none() && pushes.is_empty() {
@@ -150,8 +139,7 @@ impl ExternalEngine {
         // Pushes that are over can be forgotten: the plant has none of them either.
         self.told_pushes.retain(|push| push.start + push.duration > plant.time());
         self.told_pushes.extend_from_slice(&pushes);
-        let in_its_time = |push: &Push| ScheduledPush::from(&Push { start: push.start - began, ..*push });
-        Some(Change { floor, pushes: pushes.iter().map(in_its_time).collect() })
+        Some(Change { floor, pushes: pushes.iter().map(ScheduledPush::from).collect() })
     }
 
     fn is_news(&self, push: &Push) -> bool {

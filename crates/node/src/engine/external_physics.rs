@@ -42,7 +42,7 @@ impl Physics for ExternalPhysics {
 
     fn place(&mut self, _: &Plant, posture: &Motion) -> Result<(), EngineError> {
         let setup = self.setup.clone().beginning(&RobotState::on_right_foot(posture, 0.0));
-        self.engine = ExternalEngine::start(again(&self.command), &setup)?.beginning_later();
+        self.engine = ExternalEngine::start(again(&self.command), &setup)?;
         Ok(())
     }
 }

@@ -6,10 +6,11 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use plant::{EngineState, HeldMotion, RobotState};
 
 /// Version of the protocol between this program and engines.
-pub(super) const PROTOCOL: u32 = 4;
-/// Numbers in a setpoint: angles (rad), rates (rad/s) and feed-forward torques (N·m) of the 20 joints, and the number
-/// of bytes of a change of the world, as JSON, that follows; 0 for none.
-pub(super) const SETPOINT_LEN: usize = 3 * Joint::COUNT + 1;
+pub(super) const PROTOCOL: u32 = 5;
+/// Numbers in a setpoint: angles (rad), rates (rad/s) and feed-forward torques (N·m) of the 20 joints, the number of
+/// control periods since the plant's start, and the number of bytes of a change of the world, as JSON, that follows; 0
+/// for none.
+pub(super) const SETPOINT_LEN: usize = 3 * Joint::COUNT + 2;
 /// Numbers in a state: of the right sole position, quaternion w x y z, angular rate, velocity; of the joints angles and
 /// rates; of the ground force and moment on the right and on the left foot, about the right sole's origin; motor
 /// torques. All but the joints' in world axes, in SI units.
@@ -17,11 +18,11 @@ pub(super) const STATE_LEN: usize = 3 + 4 + 3 + 3 + 2 * Joint::COUNT + 2 * 6 + J
 
 const SIZE: usize = size_of::<f64>();
 
-/// Encodes a setpoint, and the number of bytes of a change that follows it.
-pub(super) fn encode_setpoint(setpoint: &Setpoint, change_bytes: usize) -> [u8; SETPOINT_LEN * SIZE] {
+/// Encodes a setpoint for the period after `periods` others, and the number of bytes of a change that follows it.
+pub(super) fn encode_setpoint(setpoint: &Setpoint, periods: u64, change_bytes: usize) -> [u8; SETPOINT_LEN * SIZE] {
     let mut bytes = [0; SETPOINT_LEN * SIZE];
     let values = [&setpoint.angles, &setpoint.rates, &setpoint.feed_forward];
-    let values = values.into_iter().flat_map(|joints| joints.0).chain([change_bytes as f64]);
+    let values = values.into_iter().flat_map(|joints| joints.0).chain([periods as f64, change_bytes as f64]);
     for (place, value) in bytes.chunks_exact_mut(SIZE).zip(values) {
         place.copy_from_slice(&value.to_le_bytes());
     }
@@ -94,8 +95,8 @@ mod tests {
             rates: JointVector::unit(Joint::FootRoll) * 2.0,
             feed_forward: JointVector::unit(Joint::LeftElbow) * 3.0,
         };
-        let sent = encode_setpoint(&setpoint, 4000);
+        let sent = encode_setpoint(&setpoint, 17, 4000);
         let value = |index: usize| f64::from_le_bytes(sent.as_chunks::<SIZE>().0[index]);
-        assert_eq!([value(0), value(20), value(59), value(60)], [1.0, 2.0, 3.0, 4000.0]);
+        assert_eq!([value(0), value(20), value(59), value(60), value(61)], [1.0, 2.0, 3.0, 17.0, 4000.0]);
     }
 }
