@@ -1,6 +1,7 @@
 //! `halfstep teleop` in a terminal of tmux, with keys by script: the robot turns, stops and walks back; when no key
 //! comes any more it stops; the terminal is left as it was found.
 
+use std::path::Path;
 use std::process::Command;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
@@ -145,5 +146,27 @@ fn the_terminal_is_left_as_it_was_found_and_the_robot_stops() {
         assert!(screen.contains(" icanon") && !screen.contains("-icanon"), "{key}:\n{screen}");
         assert!(screen.contains(" echo ") && !screen.contains("-echo "), "{key}:\n{screen}");
         wait_until(&mut observer, &tmux, None, "standing", |report| report.mode == Mode::Standing);
+    }
+}
+
+#[test]
+#[ignore = "needs tmux: see docs/contributing.md"]
+fn teleop_ends_with_its_terminal() {
+    let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
+    let _controller = command_line.start_here("controller --lockstep --from-stand");
+    command_line.wait_for_controller();
+    let _plant = command_line.start_here("plant --lockstep --from-stand");
+    let tmux = Tmux::start(&command_line, &format!("teleop --instance {}", command_line.instance()));
+    tmux.wait_for("standing");
+
+    let shell: u32 = tmux.run(&["display-message", "-p", "#{pane_pid}"]).trim().parse().expect("a process");
+    let children = std::fs::read_to_string(format!("/proc/{shell}/task/{shell}/children")).expect("its children");
+    let teleop = Path::new("/proc").join(children.trim());
+    assert!(teleop.exists(), "{children:?}");
+    tmux.run(&["kill-server"]);
+    let began = Instant::now();
+    while teleop.exists() {
+        assert!(began.elapsed() < SAFETY, "it is still there");
+        std::thread::sleep(REPEAT);
     }
 }

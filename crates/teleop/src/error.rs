@@ -16,6 +16,9 @@ pub enum TeleopError {
     /// The terminal cannot be used.
     #[error("the terminal: {0}")]
     Terminal(#[from] io::Error),
+    /// The terminal is gone.
+    #[error("the terminal is gone; the robot stops")]
+    TerminalGone,
     /// There is no connection to the controller.
     #[error(transparent)]
     Connect(#[from] ConnectError),

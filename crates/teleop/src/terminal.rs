@@ -8,7 +8,7 @@ use std::time::Duration;
 use ratatui::Terminal;
 use ratatui::backend::CrosstermBackend;
 use ratatui::crossterm::event::{
-    self, DisableFocusChange, EnableFocusChange, Event, KeyboardEnhancementFlags, PopKeyboardEnhancementFlags,
+    DisableFocusChange, EnableFocusChange, Event, KeyboardEnhancementFlags, PopKeyboardEnhancementFlags,
     PushKeyboardEnhancementFlags,
 };
 use ratatui::crossterm::terminal::{
@@ -17,6 +17,7 @@ use ratatui::crossterm::terminal::{
 use ratatui::crossterm::{cursor, execute};
 
 use crate::TeleopError;
+use crate::hangup::{end_after_terminal, next_event};
 use crate::screen::Screen;
 
 /// Makes sure that there is a terminal to read keys from and to draw on.
@@ -48,6 +49,7 @@ impl KeyTerminal {
     pub(crate) fn open() -> Result<Self, TeleopError> {
         require_terminal()?;
         restore_after_panic();
+        end_after_terminal()?;
         enable_raw_mode()?;
         IS_RAW.store(true, Ordering::Relaxed);
         // A terminal that does not answer has no such protocol.
@@ -77,8 +79,11 @@ impl KeyTerminal {
     }
 
     /// The next event, waited for at most so long.
+    ///
+    /// # Errors
+    /// The terminal is gone, or cannot be read.
     pub(crate) fn next_event(&self, patience: Duration) -> Result<Option<Event>, TeleopError> {
-        if event::poll(patience)? { Ok(Some(event::read()?)) } else { Ok(None) }
+        next_event(patience)
     }
 
     /// Whether the terminal answers: one at the other end of a connection that hangs does not. Waits for two seconds at
