@@ -40,7 +40,12 @@ fn benches_measure_computing_latency_and_jitter() {
         ),
         (
             "jitter --segments 1 --segment 200ms",
-            &["loop, sleeping", "noise floor", "tick, p99 of each segment: recorded and observed"],
+            &[
+                "loop, sleeping",
+                "noise floor",
+                "tick, p99 of each segment: recorded, shown and observed",
+                "wake-up, p99 of each segment: beside stopped viewers",
+            ],
         ),
     ];
     for (words, wanted) in wanted {

@@ -5,7 +5,8 @@
 //!   shared memory.
 //! * [`control_latency`]: a running controller from outside, from measurement to setpoint and from request to effect.
 //! * [`jitter`]: how late a loop wakes up, against cyclictest or a bare loop.
-//! * [`observed_jitter`]: the controller's loop while it is recorded and observed, against the same loop by itself.
+//! * [`observed_jitter`]: the controller's loop while it is recorded, observed and shown, or beside spectators that are
+//!   stopped, against the same loop by itself.
 //!
 //! All are measured in interleaved rounds, so that other load on the machine affects all alike, and reported as
 //! [`BenchReport`]. Absolute times depend on the machine; the result is in the ratios within one run.
@@ -20,6 +21,7 @@ pub mod jitter;
 pub mod machine;
 pub mod observed_jitter;
 pub mod page;
+mod page_viewer;
 mod raw_iceoryx2;
 mod raw_ring;
 pub mod report;

@@ -6,8 +6,8 @@
 //! stops the robot after the stream's age limit, whatever has become of the terminal, the connection or this process.
 //!
 //! * [`session`]: everything until the person leaves.
-//! * `terminal` and `hangup`: the terminal and its keys; it is left as it was found, also after a panic, and the process
-//!   ends with it.
+//! * `terminal` and `hangup`: the terminal and its keys; it is left as it was found, also after a panic, and the
+//!   process ends with it.
 //! * `drive_key` and `held_keys`: what keys mean, and which are held.
 //! * `drive_pace`: how fast a held key moves the robot.
 //! * `observed`: what the controller's reports tell.

@@ -9,7 +9,7 @@ use ::bench::compute::{ComputeOptions, compute};
 use ::bench::control_latency::{self, ControlLatencyOptions};
 use ::bench::exchange::{ExchangeOptions, answer, exchange};
 use ::bench::jitter::{JitterOptions, jitter};
-use ::bench::observed_jitter::{ObservedJitterOptions, observed_jitter};
+use ::bench::observed_jitter::{Commands, ObservedJitterOptions, observed_jitter};
 use ::bench::page::bench_page;
 use ::bench::{BenchError, BenchReport};
 use clap::Subcommand;
@@ -71,7 +71,8 @@ enum What {
         #[arg(long, value_name = "N", default_value_t = 20)]
         requests: u32,
     },
-    /// Wake-up latency of the loop, against cyclictest or a bare loop; the controller with and without an observer
+    /// Wake-up latency of the loop, against cyclictest or a bare loop; the controller with and without recorder,
+    /// observers and a page
     Jitter {
         /// Number of interleaved rounds
         #[arg(long, value_name = "N", default_value_t = 12)]
@@ -215,10 +216,17 @@ impl BenchArgs {
         };
         let start = robot.nominal.at(0.0);
         let new_plant = || Plant::new(&robot.mechanism, &parameters, &start, realtime.rate.period_s(), 1);
+        let viewer = || {
+            let mut command = Command::new(std::env::current_exe()?);
+            command.arg("view").args(self.config.arguments()).args(["--instance", instance.name().as_str()]);
+            command.args(["--listen", "127.0.0.1:0", "--json", "--quiet"]);
+            Ok(command)
+        };
+        let commands = Commands { controller: &controller, viewer: &viewer };
         let progress = WorkProgress::new("bench jitter, controllers", segments.into());
         let after = || progress.part_done();
         let (series, ratios) =
-            in_own_thread(|| observed_jitter(&options, &instance, controller, &robot.mechanism, new_plant, after))??;
+            in_own_thread(|| observed_jitter(&options, &instance, &commands, &robot.mechanism, new_plant, after))??;
         report.series.extend(series);
         report.ratios.extend(ratios);
         Ok(report)
