@@ -83,11 +83,11 @@ fn walk(ticks: u64) -> [Happened; 2] {
             happened
         });
         let plant = threads.spawn(move || {
-            let PlantPorts { setpoints, mut measurements, pushes } = of_plant;
+            let PlantPorts { setpoints, mut measurements, pushes, true_poses } = of_plant;
             let mut pushes = PushBridge::new(pushes, timing.clock).unwrap();
             let mut plant = Plant::new(mechanism, &plant_parameters(), &start, timing.rate.period_s(), 1);
             let (mut recorder, recorder_thread) =
-                recorder::of_plant(timing.clock, timing.rate, None, Announced::Faults).unwrap();
+                recorder::of_plant(timing.clock, timing.rate, None, Announced::Faults, true_poses).unwrap();
             let mut cycles = Cycles::new(timing, setpoints, "controller", Some(ticks), Interrupt::default());
             let happened = watch(|| {
                 let (measurements, pushes, recorder) = (&mut measurements, &mut pushes, &mut recorder);

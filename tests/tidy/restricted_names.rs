@@ -28,6 +28,7 @@ pub const CLOCK: Restriction<'_> = Restriction {
         ("crates/node/src/controller_loop.rs", "how long a period takes"),
         ("crates/node/src/cycle.rs", "how long a run takes"),
         ("crates/node/src/plant_loop.rs", "how long a period takes"),
+        ("crates/node/src/recorder.rs", "when a true pose is published"),
         ("crates/operator/src/command_stream.rs", "when a request expires"),
         ("crates/runtime/src/", "deadlines"),
         ("crates/teleop/src/session.rs", "how long a key is held"),

@@ -5,9 +5,10 @@ use std::path::Path;
 use std::time::Duration;
 
 use interface::{Fault, Rate};
+use model::Side;
 use record::{Metadata, Provenance, RecordError, RecordingWriter, RunEvent};
-use runtime::{Journal, JournalEnd};
-use wire::ReportPublisher;
+use runtime::{Journal, JournalEnd, now_ns};
+use wire::{LatestWriter, ReportPublisher, TruePoseMessage};
 
 use crate::announcements::{Announced, Announcements};
 use crate::cycle::Clock;
@@ -93,7 +94,8 @@ pub fn of_controller(
 }
 
 /// Opens the plant's recorder. It tells when the controller begins, falls silent and comes back, and when the robot
-/// falls and, if `to` names a folder, writes each entry into the plant's recording there.
+/// falls, publishes where the robot truly is and, if `to` names a folder, writes each entry into the plant's recording
+/// there.
 ///
 /// # Errors
 /// The recording cannot be created, or the operating system refused a thread.
@@ -102,6 +104,7 @@ pub fn of_plant(
     rate: Rate,
     to: Option<(&Path, Provenance)>,
     announced: Announced,
+    mut true_poses: LatestWriter<TruePoseMessage>,
 ) -> Result<(Recorder<PlantEvent>, RecorderThread), NodeError> {
     let (mut has_begun, mut has_fallen) = (false, false);
     let take = move |writer: &mut RecordWriter, event: PlantEvent| {
@@ -128,6 +131,8 @@ pub fn of_plant(
                 tell(format_args!("plant: the robot has fallen at {:.2} s", rate.time(entry.tick)));
             }
         }
+        let right_sole = &entry.truth.soles[Side::Right.index()];
+        true_poses.write(&TruePoseMessage::new(entry.tick, now_ns(), right_sole));
         writer.tick = entry.tick;
         writer.write(entry.tick as u32, &[entry.event()]);
     };

@@ -3,8 +3,11 @@
 use dynamics::Tree;
 use interface::{Faults, Measurement, PeriodTiming, Rate, Report};
 use model::{LegReach, Mechanism};
+use nalgebra::Isometry3;
 
+use crate::floor_cells::world_in_walk;
 use crate::placement::right_sole_in_walk;
+use crate::rounded::rounded;
 use crate::view_frame::{SinceLastFrame, ViewFrame};
 
 /// Takes every report and measurement, and makes a frame of them now and then. A fault or a small margin between two
@@ -54,7 +57,9 @@ impl FrameAssembler {
 
     /// The frame of the newest report with a measurement; `None` if there was no report yet, or the measurement makes
     /// no sense.
-    pub fn frame(&mut self, measurement: &Measurement) -> Option<ViewFrame> {
+    ///
+    /// * `true_sole` – the right sole in the world, if that is known
+    pub fn frame(&mut self, measurement: &Measurement, true_sole: Option<&Isometry3<f64>>) -> Option<ViewFrame> {
         let (timing, report) = self.last?;
         let finite = measurement.angles.0.iter().chain(measurement.orientation.coords.iter()).all(|n| n.is_finite());
         if !finite {
@@ -63,7 +68,8 @@ impl FrameAssembler {
         let sole = right_sole_in_walk(&self.mechanism, &self.tree, self.scale, &report, measurement);
         let since = std::mem::take(&mut self.since);
         let time = self.rate.time(timing.tick);
-        Some(ViewFrame::new(time, &report, measurement, &sole, &since, timing.missed))
+        let floor = true_sole.map(|truly| rounded(world_in_walk(&sole, truly)));
+        Some(ViewFrame { floor, ..ViewFrame::new(time, &report, measurement, &sole, &since, timing.missed) })
     }
 }
 
@@ -84,19 +90,19 @@ mod tests {
     #[test]
     fn what_happens_between_two_frames_is_seen_in_the_second() {
         let mut assembler = FrameAssembler::new(&mechanism(), Rate::clamped(1000), false);
-        assert_eq!(assembler.frame(&measured()), None, "there was no report");
+        assert_eq!(assembler.frame(&measured(), None), None, "there was no report");
         for (timing, report) in
             [report(5, 0, 0.03, &[]), report(6, 400, 0.01, &[Fault::RateLimited]), report(7, 0, 0.02, &[])]
         {
             assembler.take(&timing, &report);
         }
-        let frame = assembler.frame(&measured()).expect("a frame");
+        let frame = assembler.frame(&measured(), None).expect("a frame");
         assert_eq!((frame.t, frame.margin, frame.faults), (0.007, Some(0.01), vec![Fault::RateLimited.text()]));
         assert_eq!((frame.compute_us, frame.jitter_us), (7.0, 0.4));
         // The period after a lost report has nothing to be compared with.
         let (timing, last) = report(9, 900, 0.03, &[]);
         assembler.take(&timing, &last);
-        let frame = assembler.frame(&measured()).expect("a frame");
+        let frame = assembler.frame(&measured(), None).expect("a frame");
         assert_eq!((frame.margin, frame.faults.len(), frame.jitter_us), (Some(0.03), 0, 0.0));
     }
 
@@ -107,7 +113,7 @@ mod tests {
         assembler.take(&timing, &first);
         let mut broken = measured();
         broken.angles.0[7] = f64::NAN;
-        assert_eq!(assembler.frame(&broken), None);
-        assert!(assembler.frame(&measured()).is_some());
+        assert_eq!(assembler.frame(&broken, None), None);
+        assert!(assembler.frame(&measured(), None).is_some());
     }
 }

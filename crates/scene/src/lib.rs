@@ -1,9 +1,10 @@
 //! What a page shows of a walk, whoever walks: processes, a recording, or the page itself.
 //!
-//! A page gets the robot once ([`RobotDrawing`]) and then frames ([`ViewFrame`]), each the state of one instant, which
+//! A page gets the robot once ([`RobotDrawing`]), the floor near it where that is no plane ([`FloorCells`]), and then frames ([`ViewFrame`]), each the state of one instant, which
 //! a [`FrameAssembler`] makes of reports and measurements. [`ToPage`] and [`FromPage`] are the messages to and from a
 //! page; what it draws of them is in `tools/view`.
 
+mod floor_cells;
 mod frame_assembler;
 mod message;
 mod placement;
@@ -11,6 +12,7 @@ mod robot_drawing;
 mod rounded;
 mod view_frame;
 
+pub use floor_cells::{FloorCell, FloorCells, FloorPiece};
 pub use frame_assembler::FrameAssembler;
 pub use message::{AskedPush, FromPage, RunNote, ToPage};
 pub use robot_drawing::RobotDrawing;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use crate::floor_cells::FloorPiece;
 use crate::robot_drawing::RobotDrawing;
 use crate::view_frame::ViewFrame;
 
@@ -61,6 +62,13 @@ pub enum ToPage<'a> {
         index: usize,
         /// In the order of their times.
         frames: &'a [ViewFrame],
+    },
+    /// The floor near the robot, in place of what was told of it before.
+    Floor {
+        /// Of which run.
+        index: usize,
+        /// Without overlap; none if it is a plane.
+        pieces: &'a [FloorPiece],
     },
     /// What happened in a recorded run.
     Events {

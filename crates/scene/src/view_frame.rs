@@ -25,6 +25,9 @@ pub struct ViewFrame {
     pub gait: [f64; 4],
     /// The right sole in the walk frame: position (m), unit quaternion w x y z.
     pub base: [f64; 7],
+    /// The world's origin in the walk frame: x, y (m), heading (rad), height (m); none where the floor is a plane.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub floor: Option<[f64; 4]>,
     /// Measured angles of the joints, in the paper's order (rad).
     pub angles: [f64; model::Joint::COUNT],
     /// Measured zero-moment point (m); none when the feet bear too little.
@@ -105,6 +108,7 @@ impl ViewFrame {
             progress: rounded([report.half_step.progress])[0],
             gait: rounded([report.speed, report.turn, report.extension, report.sidestep]),
             base: rounded([place.x, place.y, place.z, turned.w, turned.i, turned.j, turned.k]),
+            floor: None,
             angles: rounded(measurement.angles.0),
             zmp: report.zmp_in_support.map(point),
             zmp_planned: report.zmp_planned.map(point),

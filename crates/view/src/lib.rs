@@ -12,6 +12,7 @@
 mod access;
 mod error;
 mod fall_watch;
+mod floor_texts;
 mod live_feed;
 mod live_pages;
 mod pusher;
@@ -22,5 +23,6 @@ mod socket;
 mod teleoperation;
 
 pub use error::ViewError;
+pub use floor_texts::{FloorFile, FloorTexts};
 pub use recorded_run::RecordedRun;
 pub use server::{RunningRobot, Shown, ViewServer};

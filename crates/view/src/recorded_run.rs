@@ -1,21 +1,25 @@
 //! A recorded run, as the frames that a live one would have given.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use config::Config;
 use interface::Rate;
 use model::{Joint, Mechanism};
 use record::{PushMessage, Recording, RunEvent, files_of, provenance_of};
-use scene::{FrameAssembler, RobotDrawing, RunNote, ViewFrame};
+use scene::{FloorCell, FloorCells, FloorPiece, FrameAssembler, RobotDrawing, RunNote, ViewFrame};
+use wire::TruePoseMessage;
 
-use crate::ViewError;
 use crate::fall_watch::FallWatch;
 use crate::recorded_requests::RecordedRequests;
+use crate::{FloorTexts, ViewError};
 
 /// Time between two frames (s).
 const INTERVAL: f64 = 0.02;
 /// Most frames of a run: of a longer one every second, every third and so on.
 const FRAMES_MAX: usize = 30_000;
+/// About how many cells of the floor a page can draw.
+const CELLS_MAX: usize = 2000;
 /// Name of the attached description of the robot.
 const MECHANISM: &str = "mechanism.toml";
 
@@ -26,6 +30,8 @@ pub struct RecordedRun {
     pub(crate) robot: RobotDrawing,
     pub(crate) frames: Vec<ViewFrame>,
     pub(crate) notes: Vec<RunNote>,
+    /// The floor near the way, where it is no plane.
+    pub(crate) floor: Vec<FloorPiece>,
     /// What is missing at its end, if anything is.
     pub cut: Option<String>,
 }
@@ -50,10 +56,12 @@ impl RecordedRun {
             FrameAssembler::new(&mechanism, rate, origin.entry("controller", "clock") == Some("lockstep"));
         let (mut frames, mut requests) = (Frames::default(), RecordedRequests::default());
         let mut fall = FallWatch::default();
+        let floor = FloorTexts::of_recording(&origin).and_then(|texts| texts.cells());
+        let mut way = Vec::new();
         let (mut notes, mut cuts) = (Vec::new(), Vec::new());
         for file in files_of(run)? {
             let mut recording = Recording::open(&file)?;
-            let mut measurement = None;
+            let (mut measurement, mut true_sole) = (None, None);
             while let Some(event) = recording.next_event()? {
                 match event.event {
                     RunEvent::Measurement(message) => measurement = Some(message.measurement()),
@@ -65,12 +73,19 @@ impl RecordedRun {
                         if let Some(measurement) = &measurement
                             && frames.is_due(event.time())
                         {
-                            frames.add(event.time(), assembler.frame(measurement));
+                            frames.add(event.time(), assembler.frame(measurement, true_sole.as_ref()));
                         }
                     }
                     RunEvent::Request(message) => requests.asked(event.number, &message),
                     RunEvent::Reply(message) => requests.replied(event.time(), event.number, &message),
                     RunEvent::Push(push) => notes.push(push_note(&push)),
+                    RunEvent::Truth(truth) if floor.is_some() => {
+                        let [x, y, z, orientation @ ..] = truth.right_sole;
+                        let (tick, position) = (truth.tick, [x, y, z]);
+                        true_sole = TruePoseMessage { tick, time_ns: 0, position, orientation }.right_sole();
+                        let cell = true_sole.map(|sole| FloorCells::cell(sole.translation.vector.xy()));
+                        way.extend(cell.filter(|cell| way.last() != Some(cell)));
+                    }
                     RunEvent::Tick(_) | RunEvent::Setpoint(_) | RunEvent::Truth(_) => {}
                 }
             }
@@ -83,13 +98,25 @@ impl RecordedRun {
         notes.extend(requests.notes);
         notes.extend(fall.notes);
         notes.sort_by(|one, other| one.t.total_cmp(&other.t));
-        Ok(Self { name, robot, frames: frames.kept, notes, cut })
+        let floor = floor.map_or(Vec::new(), |floor| floor.pieces(near(&way)));
+        Ok(Self { name, robot, frames: frames.kept, notes, floor, cut })
     }
 
     /// Time of the last frame (s).
     pub(crate) fn duration(&self) -> f64 {
         self.frames.last().map_or(0.0, |frame| frame.t)
     }
+}
+
+/// Cells near a way, no more than a page can draw: of a longer way those at its beginning.
+fn near(way: &[FloorCell]) -> BTreeSet<FloorCell> {
+    let mut cells = BTreeSet::new();
+    for cell in way {
+        if cells.len() < CELLS_MAX {
+            cells.extend(FloorCells::near(*cell));
+        }
+    }
+    cells
 }
 
 /// A push in words.
@@ -152,6 +179,7 @@ mod tests {
             progress: 0.0,
             gait: [1.0, 0.0, 0.0, 0.0],
             base: [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+            floor: None,
             angles: [0.0; Joint::COUNT],
             zmp: None,
             zmp_planned: None,

@@ -10,6 +10,7 @@ use scene::{FromPage, ToPage};
 use tokio::sync::broadcast::error::RecvError;
 
 use crate::RecordedRun;
+use crate::live_feed::LiveTexts;
 use crate::live_pages::{HANDOVER, LivePages};
 use crate::teleoperation::Order;
 
@@ -26,9 +27,10 @@ pub(crate) async fn serve_live(mut socket: WebSocket, pages: &LivePages) {
 
 /// Sends texts and obeys messages until the page has gone.
 async fn exchange(socket: &mut WebSocket, pages: &LivePages, page: u64) -> Result<(), axum::Error> {
-    let (mut scenes, mut frames) = (pages.texts.scene.clone(), pages.texts.frame.clone());
+    let LiveTexts { scene: mut scenes, floor: mut floors, frame: mut frames } = pages.texts.clone();
     let mut answers = pages.answers.subscribe();
     scenes.mark_changed();
+    floors.mark_changed();
     send(socket, pages.driver_text(page)).await?;
     loop {
         let text = tokio::select! {
@@ -50,6 +52,12 @@ async fn exchange(socket: &mut WebSocket, pages: &LivePages, page: u64) -> Resul
                     return Ok(());
                 }
                 scenes.borrow_and_update().clone()
+            }
+            changed = floors.changed() => {
+                if changed.is_err() {
+                    return Ok(());
+                }
+                floors.borrow_and_update().clone()
             }
             changed = frames.changed() => {
                 if changed.is_err() {
@@ -93,6 +101,7 @@ async fn send_runs(socket: &mut WebSocket, runs: &[RecordedRun]) -> Result<(), a
         let (name, robot, duration) = (run.name.as_str(), &run.robot, run.duration());
         send(socket, ToPage::Run { index, name, robot, duration, frames: run.frames.len() }.text()).await?;
         send(socket, ToPage::Events { index, events: &run.notes }.text()).await?;
+        send(socket, ToPage::Floor { index, pieces: &run.floor }.text()).await?;
         for frames in run.frames.chunks(FRAMES_PER_MESSAGE) {
             send(socket, ToPage::Frames { index, frames }.text()).await?;
         }

@@ -142,7 +142,7 @@ impl PageWalk {
         let Session { commands, disturbances } = &self.session;
         let (ticks, hash) = (self.walk.tick(), self.walk.setpoints().to_string());
         self.news.push(WalkNews::Walked { ticks, hash, commands, disturbances }.text());
-        if let Some(frame) = self.frames.frame(self.walk.measurement()) {
+        if let Some(frame) = self.frames.frame(self.walk.measurement(), None) {
             self.news.push(ToPage::Frame(&frame).text().to_string());
         }
     }

@@ -4,7 +4,7 @@ use iceoryx2::prelude::ZeroCopySend;
 
 use crate::{
     MeasurementMessage, PushReplyMessage, PushRequestMessage, ReplyMessage, ReportMessage, RequestMessage,
-    SetpointMessage,
+    SetpointMessage, TruePoseMessage,
 };
 
 /// The layout of a message in shared memory.
@@ -120,6 +120,7 @@ wire_layout!(ReportMessage as type_name::<ReportMessage>(), {
 
 wire_layout!(PushRequestMessage as type_name::<PushRequestMessage>(), { link, impulse, duration });
 wire_layout!(PushReplyMessage as type_name::<PushReplyMessage>(), { outcome, start });
+wire_layout!(TruePoseMessage as type_name::<TruePoseMessage>(), { tick, time_ns, position, orientation });
 
 /// The layouts of all messages.
 pub fn layouts() -> Vec<Layout> {
@@ -131,6 +132,7 @@ pub fn layouts() -> Vec<Layout> {
         ReportMessage::layout(),
         PushRequestMessage::layout(),
         PushReplyMessage::layout(),
+        TruePoseMessage::layout(),
     ]
 }
 

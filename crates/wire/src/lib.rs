@@ -1,7 +1,7 @@
 //! What crosses the process boundary: messages in shared memory, the services that carry them, and the ports of each
 //! process. Beside the benchmarks this is the only crate that names iceoryx2.
 //!
-//! The processes of a robot exchange messages by five services. Their names begin with `halfstep/<instance>/`, so that
+//! The processes of a robot exchange messages by six services. Their names begin with `halfstep/<instance>/`, so that
 //! several robots and tests can run at the same time:
 //!
 //! | service | from → to | message | pattern |
@@ -11,6 +11,7 @@
 //! | `request` | operator → controller and back | [`RequestMessage`], [`ReplyMessage`] | request–response |
 //! | `report` | controller → anyone | [`ReportMessage`] | publish–subscribe |
 //! | `push` | anyone → simulated plant and back | [`PushRequestMessage`], [`PushReplyMessage`] | request–response |
+//! | `true-pose` | simulated plant → anyone | [`TruePoseMessage`] | blackboard |
 //!
 //! A blackboard has one writer and up to 16 readers; only the latest message counts. The request service has one server
 //! and up to 32 clients, each with up to 32 unanswered requests. The report service has one publisher and up to 16
@@ -24,8 +25,8 @@
 //! * An **instance** ([`Instance`]) is one robot: a name, and the memory that its processes share.
 //! * **Ports** are what a process connects with: [`ControllerPorts`] and [`PlantPorts`], of which an instance has one
 //!   each, and several [`OperatorPorts`], which send requests, [`ObserverPorts`], which receive reports, and
-//!   [`SpectatorPorts`], which receive measurements, too. The ports of a process are public fields; each may be moved
-//!   to another thread.
+//!   [`SpectatorPorts`], which receive measurements, too, and from a simulated plant its [`TruePoses`]. The ports of a
+//!   process are public fields; each may be moved to another thread.
 //! * The **tick** of a message is the writer's count of control periods. [`NEVER_WRITTEN`] marks a message that was
 //!   never written; readers turn it into `None`. To find out whether a message is new, compare its tick with the last
 //!   one for *inequality*: a restarted writer counts from 0 again. The last message of a writer that has disconnected
@@ -91,7 +92,7 @@ pub use layout::kind;
 pub use layout::{Field, FieldValue, Layout, NumberType, WireLayout, layouts};
 pub use leftovers::Leftovers;
 pub use message::*;
-pub use ports::{ControllerPorts, ObserverPorts, OperatorPorts, PlantPorts, SpectatorPorts};
+pub use ports::{ControllerPorts, ObserverPorts, OperatorPorts, PlantPorts, SpectatorPorts, TruePoses};
 pub use push::{PushClient, PushResponder, PushServer};
 pub use report::{ReportPublisher, ReportSubscriber};
 pub use request::{MAX_OPERATORS, MAX_UNANSWERED, PendingReply, RequestClient, RequestServer, Responder};

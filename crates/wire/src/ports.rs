@@ -8,7 +8,7 @@ use crate::leftovers::{clean_up, sweep_others};
 use crate::shared_memory::Role;
 use crate::{
     ConnectError, Instance, Ipc, LatestReader, LatestWriter, MeasurementMessage, PushServer, ReportPublisher,
-    ReportSubscriber, RequestClient, RequestServer, SetpointMessage,
+    ReportSubscriber, RequestClient, RequestServer, SetpointMessage, TruePoseMessage,
 };
 
 /// The controller's ports. They may move to different threads: setpoints and measurements to the control loop, requests
@@ -70,6 +70,8 @@ pub struct PlantPorts {
     pub measurements: LatestWriter<MeasurementMessage>,
     /// Requests to push the simulated robot, and the replies to them.
     pub pushes: PushServer,
+    /// Where the simulated robot truly is, to anyone.
+    pub true_poses: LatestWriter<TruePoseMessage>,
 }
 
 impl PlantPorts {
@@ -85,8 +87,13 @@ impl PlantPorts {
         let setpoint = LatestService::open::<SetpointMessage>(instance, &node, SETPOINT, mechanism)?;
         let measurement = LatestService::open::<MeasurementMessage>(instance, &node, MEASUREMENT, mechanism)?;
         check_start(&setpoint)?;
-        let (measurements, setpoints) = (measurement.writer(Role::Plant)?, setpoint.reader()?);
-        let ports = Self { measurements, setpoints, pushes: PushServer::connect(instance, &node)? };
+        let true_pose = LatestService::open::<TruePoseMessage>(instance, &node, TRUE_POSE, mechanism)?;
+        let ports = Self {
+            measurements: measurement.writer(Role::Plant)?,
+            setpoints: setpoint.reader()?,
+            pushes: PushServer::connect(instance, &node)?,
+            true_poses: true_pose.writer(Role::Plant)?,
+        };
         instance.take_room(&lock, Role::Plant)?;
         Ok(ports)
     }
@@ -165,5 +172,28 @@ impl SpectatorPorts {
     }
 }
 
+/// Where a simulated robot truly is.
+#[derive(Debug)]
+pub struct TruePoses {
+    /// The poses, from the plant.
+    pub poses: LatestReader<TruePoseMessage>,
+}
+
+impl TruePoses {
+    /// Connects this process to the simulated plant of an instance; to a plant that knows no true pose there is no
+    /// connection.
+    ///
+    /// # Errors
+    /// No plant is running that tells where its robot is, or one of another version, or the shared memory has no room.
+    pub fn connect(instance: &Instance) -> Result<Self, ConnectError> {
+        let lock = instance.connect_lock_if_there()?;
+        let node = join(instance, &lock, Role::Observer)?;
+        let (poses, ..) = LatestService::watch(instance, &node, TRUE_POSE)?;
+        instance.take_room(&lock, Role::Observer)?;
+        Ok(Self { poses })
+    }
+}
+
 const SETPOINT: &str = "setpoint";
 const MEASUREMENT: &str = "measurement";
+const TRUE_POSE: &str = "true-pose";

@@ -7,7 +7,7 @@ use std::mem::{align_of, offset_of, size_of};
 
 use wire::{
     MeasurementMessage, PushReplyMessage, PushRequestMessage, ReplyMessage, ReportMessage, RequestMessage,
-    SetpointMessage,
+    SetpointMessage, TruePoseMessage,
 };
 
 /// Checks size and alignment, each field's offset, and that fields follow each other without a gap.
@@ -38,6 +38,11 @@ fn setpoint_message_has_a_fixed_layout() {
 fn push_messages_have_a_fixed_layout() {
     assert_layout!(PushRequestMessage, 40, { link @ 0 + 8, impulse @ 8 + 24, duration @ 32 + 8 });
     assert_layout!(PushReplyMessage, 16, { outcome @ 0 + 8, start @ 8 + 8 });
+}
+
+#[test]
+fn true_pose_message_has_a_fixed_layout() {
+    assert_layout!(TruePoseMessage, 72, { tick @ 0 + 8, time_ns @ 8 + 8, position @ 16 + 24, orientation @ 40 + 32 });
 }
 
 #[test]

@@ -429,3 +429,24 @@ class PushReply(Message):
     def type_name() -> str:
         """What shared memory calls it."""
         return "halfstep.PushReply.v1"
+
+
+class TruePose(Message):
+    """`halfstep.TruePose.v1`, 72 bytes."""
+
+    tick: int
+    time_ns: int
+    position: Array[c_double]
+    orientation: Array[c_double]
+
+    _fields_ = [
+        ("tick", c_uint64),
+        ("time_ns", c_uint64),
+        ("position", c_double * 3),
+        ("orientation", c_double * 4),
+    ]
+
+    @staticmethod
+    def type_name() -> str:
+        """What shared memory calls it."""
+        return "halfstep.TruePose.v1"

@@ -24,10 +24,15 @@ function frame(sole, side, width) {
   return new THREE.ShapeGeometry(shape, 6);
 }
 
+const UP = new THREE.Vector3(0, 0, 1);
 const place = new THREE.Object3D();
-function matrixOf([x, y, heading], height) {
-  place.position.set(x, y, height);
+const tilt = new THREE.Quaternion();
+/** The place of a print so high over the floor, and as steep as this. */
+function matrixOf([x, y, heading], over, floor) {
+  const { height, normal } = floor.at(x, y);
+  place.position.set(x, y, height + over);
   place.rotation.set(0, 0, heading);
+  if (normal) place.quaternion.premultiply(tilt.setFromUnitVectors(UP, normal));
   place.updateMatrix();
   return place.matrix;
 }
@@ -76,13 +81,13 @@ export class FloorMarks {
     this.ghost = ghost;
   }
 
-  /** Shows what a timeline holds at a time. */
-  show(timeline, time) {
+  /** Shows what a timeline holds at a time, on a floor. */
+  show(timeline, time, floor) {
     const frameNow = timeline.frames[timeline.indexAt(time)];
     const counts = [0, 0];
     timeline.footprints(time, PRINTS).forEach((print) => {
       const side = print[3];
-      this.past[side].forEach((mesh) => mesh.setMatrixAt(counts[side], matrixOf(print, 0.002)));
+      this.past[side].forEach((mesh) => mesh.setMatrixAt(counts[side], matrixOf(print, 0.002, floor)));
       counts[side] += 1;
     });
     this.past.forEach((meshes, side) => meshes.forEach((mesh) => {
@@ -94,7 +99,7 @@ export class FloorMarks {
     if (steps) {
       frameNow.landings.forEach((landing, index) => {
         const mesh = this.planned[(frameNow.support + 1 + index) % 2];
-        mesh.setMatrixAt(0, matrixOf(landing, 0.004));
+        mesh.setMatrixAt(0, matrixOf(landing, 0.004, floor));
         mesh.count = 1;
         mesh.instanceMatrix.needsUpdate = true;
       });
@@ -106,7 +111,7 @@ export class FloorMarks {
     let count = 0;
     for (let index = 0; index < frames.length; index += every) {
       const [x, y] = frames[index].pose;
-      places.setXYZ(count, x, y, 0.003);
+      places.setXYZ(count, x, y, floor.at(x, y).height + 0.003);
       count += 1;
     }
     places.needsUpdate = true;
@@ -117,7 +122,9 @@ export class FloorMarks {
       const [c, s] = [Math.cos(heading), Math.sin(heading)];
       [[this.zmp, frameNow.zmp], [this.dcm, frameNow.dcm]].forEach(([mesh, point]) => {
         mesh.visible = point !== null;
-        if (point) mesh.position.set(x + c * point[0] - s * point[1], y + s * point[0] + c * point[1], 0.006);
+        if (!point) return;
+        const [px, py] = [x + c * point[0] - s * point[1], y + s * point[0] + c * point[1]];
+        mesh.position.set(px, py, floor.at(px, py).height + 0.006);
       });
     }
   }
@@ -140,9 +147,9 @@ export class GoalMark {
     this.group.visible = false;
   }
 
-  show([x, y], heading) {
+  show([x, y, z = 0], heading) {
     this.group.visible = true;
-    this.group.position.set(x, y, 0.005);
+    this.group.position.set(x, y, z + 0.005);
     this.arrow.visible = heading !== null;
     this.group.rotation.set(0, 0, heading ?? 0);
   }

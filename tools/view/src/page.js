@@ -3,6 +3,7 @@ import 'uplot/dist/uPlot.min.css';
 import './style.css';
 import { Charts } from './charts.js';
 import { FloorMarks, GoalMark } from './floor_marks.js';
+import { FloorShape } from './floor_shape.js';
 import { Player } from './player.js';
 import { PointerInput } from './pointer_input.js';
 import { Robot } from './robot.js';
@@ -41,9 +42,10 @@ function hint(text) {
 }
 
 function clear() {
-  runs.splice(0).forEach(({ robot, marks }) => {
-    viewport.scene.remove(robot.group, marks.group);
+  runs.splice(0).forEach(({ robot, marks, floor }) => {
+    viewport.scene.remove(robot.group, marks.group, floor.group);
     robot.dispose();
+    floor.dispose();
   });
 }
 
@@ -51,7 +53,7 @@ function begin(index, drawing, name) {
   if (index === 0) clear();
   const ghost = index > 0;
   const [timeline, robot, marks] = [new Timeline(drawing), new Robot(drawing, ghost), new FloorMarks(drawing, ghost)];
-  const run = { name, timeline, robot, marks };
+  const run = { name, timeline, robot, marks, floor: new FloorShape() };
   runs[index] = run;
   if (index === 0) {
     viewport.fit(drawing.scale);
@@ -89,6 +91,9 @@ const handlers = {
   frame(frame) {
     runs[0]?.timeline.add(frame);
   },
+  floor({ index, pieces }) {
+    runs[index]?.floor.set(pieces);
+  },
   driver(driver) {
     teleoperation.setDriver(driver);
     viewport.resize(driver.you ? DRIVE_WIDTH : 0);
@@ -120,8 +125,8 @@ const pointer = new PointerInput(viewport, {
   robot: () => runs[0]?.robot,
   goal,
   drives: () => teleoperation.drives && player.isLive,
-  walkTo: ([x, y], heading) => {
-    goal.show([x, y], heading);
+  walkTo: ([x, y, z], heading) => {
+    goal.show([x, y, z], heading);
     const rounded = (value) => Math.round(value * 1e3) / 1e3;
     const place = { x_m: rounded(x), y_m: rounded(y) };
     if (heading !== null) place.heading_deg = rounded(heading * DEGREES);
@@ -216,12 +221,14 @@ function draw(now) {
       marked = key;
       player.mark(runs[0].timeline.notes, begin, end);
     }
-    shown.forEach(({ timeline, robot, marks }) => {
-      if (!robot.group.parent) viewport.scene.add(robot.group, marks.group);
+    shown.forEach(({ timeline, robot, marks, floor }) => {
+      if (!robot.group.parent) viewport.scene.add(robot.group, marks.group, floor.group);
+      floor.place(timeline.frames[timeline.indexAt(time)]);
       robot.pose(timeline.around(time));
-      marks.show(timeline, time);
+      marks.show(timeline, time, floor);
     });
-    const { timeline, robot } = runs[0];
+    const { timeline, robot, floor } = runs[0];
+    viewport.showFloor(floor.origin ? floor : null);
     const frame = timeline.frames[timeline.indexAt(time)];
     viewport.track(robot.middle(), seconds);
     showFacts(frame);

@@ -76,6 +76,7 @@ export class Viewport {
     this.scene.add(this.floor, shadows, this.sun, this.sun.target, this.rim, this.rim.target,
       new THREE.HemisphereLight(0xcfe0f5, 0x2a2f38, 1.35));
     this.follow = null;
+    this.shape = null;
     this.size = 1;
     this.left = 0;
     this.times = [];
@@ -174,8 +175,16 @@ export class Viewport {
     return ray;
   }
 
+  /** Shows the floor as a plane, or a shape in place of it. */
+  showFloor(shape) {
+    this.shape = shape;
+    this.floor.visible = this.shadows.visible = shape === null;
+  }
+
   /** The point of the floor under a point of the window; null above the horizon. */
   floorAt(event) {
+    const [hit] = this.shape ? this.ray(event).intersectObject(this.shape.ground) : [];
+    if (hit) return hit.point;
     return this.ray(event).ray.intersectPlane(new THREE.Plane(new THREE.Vector3(0, 0, 1), 0), new THREE.Vector3());
   }
 }

@@ -1,6 +1,6 @@
 // What the tests of the page share: a robot that walks in lockstep, `halfstep view`, and a browser.
 import { spawn, execFile } from 'node:child_process';
-import { existsSync, mkdirSync, mkdtempSync, rmSync } from 'node:fs';
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { promisify } from 'node:util';
@@ -50,6 +50,15 @@ export class Workplace {
   /** Runs a command to its end. */
   async run(...words) {
     return (await promisify(execFile)(halfstep(), words, this.#options)).stdout;
+  }
+
+  /** A folder of parameters: the committed ones, with another text of plant.toml. */
+  config(changed) {
+    const folder = join(this.folder, 'config');
+    cpSync(join(repository, 'config'), folder, { recursive: true });
+    const file = join(folder, 'plant.toml');
+    writeFileSync(file, changed(readFileSync(file, 'utf8')));
+    return folder;
   }
 
   /** Starts a robot that stands. In lockstep a recording of it grows by some 15 MB per second. */

@@ -11,6 +11,8 @@ const AGE_LIMIT = 30;
 const place = new Workplace();
 /** Of a robot that records: no longer than it must, since in lockstep that is much. */
 const recording = new Workplace();
+/** Of a robot on a floor that is no plane. */
+const uneven = new Workplace();
 let browser;
 let url;
 let robot;
@@ -23,7 +25,7 @@ before(async () => {
 
 after(async () => {
   await browser?.browser.close();
-  await Promise.all([place, recording].map((each) => each.close()));
+  await Promise.all([place, recording, uneven].map((each) => each.close()));
 });
 
 afterEach(() => browser.closePages());
@@ -205,6 +207,49 @@ test('two runs are drawn over each other', async () => {
   const page = await browser.page(both);
   await until(() => page.evaluate(() => window.halfstep.runs.length === 2
     && window.halfstep.runs.every(({ robot }) => robot.group.parent !== null)));
+});
+
+/** Tiles, and steps up and down on the way. */
+const UNEVEN = `
+[[floor.step]]
+from_m = 0.6
+height_m = 0.012
+length_m = 0.9
+`;
+
+test('the floor has its shape, and the soles stand on it, live and from the recording', async () => {
+  const config = uneven.config((plant) => plant.replace(/^height_m = 0$/m, 'height_m = 0.003') + UNEVEN);
+  const floor = (page) => page.evaluate(() => {
+    const [{ timeline, floor: shape }] = window.halfstep.runs;
+    const over = timeline.frames.filter((frame) => frame.floor).map((frame) => {
+      shape.place(frame);
+      const [x, y] = frame.support_sole;
+      return { ...frame, over: shape.at(x, y).height, at: frame.floor[3] };
+    });
+    return { pieces: shape.buckets.size, over };
+  });
+
+  await uneven.run('walk', '--lockstep', '--for', '8s', '--out', 'uneven', '--config', config);
+  const { url: recorded } = await uneven.view('uneven');
+  const page = await browser.page(recorded);
+  const walked = await until(async () => {
+    const { pieces, over } = await floor(page);
+    return pieces && over.length > 350 && over;
+  });
+  // In the middle of a half-step one foot alone bears, flat.
+  const stood = walked.filter(({ progress, mode }) => mode === 'walking' && progress > 0.4 && progress < 0.6);
+  assert.ok(stood.length > 50, `${stood.length} frames`);
+  const off = Math.max(...stood.map(({ over }) => Math.abs(over)));
+  assert.ok(off < 0.006, `a sole is ${off} m over or in the floor`);
+  const climbed = Math.min(...walked.map(({ at }) => at));
+  assert.ok(climbed < -0.008, `the world is at ${climbed} m: the step was not climbed`);
+
+  const running = uneven.robot('--config', config);
+  const { url: live } = await uneven.view('--instance', uneven.instance, '--config', config);
+  const lively = await browser.page(live);
+  await until(async () => (await floor(lively)).over.length > 0);
+  assert.ok(Math.abs((await floor(lively)).over[0].over) < 0.006);
+  await uneven.end(running);
 });
 
 test('no page has written an error to its console', () => {

@@ -17,8 +17,10 @@ use node::summary::PlantSummary;
 use node::tell::tell;
 use node::{realtime, recorder};
 use pattern::PatternGenerator;
+use plant::PlantParameters;
 use record::{Metadata, Provenance};
-use wire::PlantPorts;
+use view::{FloorFile, FloorTexts};
+use wire::{Instance, PlantPorts};
 
 use super::config_options::ConfigOptions;
 use super::engine::Engine;
@@ -94,9 +96,10 @@ impl PlantArgs {
 
         let instance = self.instance.of_loop(realtime.rate, &self.runs)?;
         let _leftovers = instance.leftovers();
-        let PlantPorts { setpoints, mut measurements, pushes } =
+        let PlantPorts { setpoints, mut measurements, pushes, true_poses } =
             PlantPorts::connect(&instance, robot.mechanism.fingerprint)?;
         let clock = self.runs.clock();
+        let _floor = self.tell_floor(&instance, &files, &parameters)?;
         let field = parameters.floor.height_field.as_ref();
         let attached = urdf.map(|text| (URDF.to_owned(), text)).into_iter();
         let attached = attached.chain(field.map(|field| (field.file.clone(), field.text.to_string())));
@@ -106,7 +109,8 @@ impl PlantArgs {
         if let Some(engine) = &outside {
             pushes = pushes.on_links(|link| engine.has(link));
         }
-        let (mut recorder, recorder_thread) = recorder::of_plant(clock, realtime.rate, to, self.child.announced())?;
+        let (mut recorder, recorder_thread) =
+            recorder::of_plant(clock, realtime.rate, to, self.child.announced(), true_poses)?;
         let ticks = self.runs.ticks(realtime.rate);
         let mut cycles = Cycles::new(realtime.timing(clock), setpoints, "controller", ticks, interrupt).following();
 
@@ -147,6 +151,24 @@ impl PlantArgs {
         };
         print(json, &summary)?;
         Ok(Status::success_if(run.fell_at.is_none() && run.unstable.is_none() && summary.record_error.is_none()))
+    }
+
+    /// Tells those who look on what the floor is, unless it is a plane.
+    fn tell_floor(
+        &self,
+        instance: &Instance,
+        files: &ConfigFiles,
+        parameters: &PlantParameters,
+    ) -> Result<Option<FloorFile>, CliError> {
+        if parameters.ground(self.seed).is_plane() {
+            return Ok(None);
+        }
+        let text = |(name, text): (String, String)| (name == PLANT).then_some(text);
+        let Some(plant) = files.texts(PLANT, None)?.into_iter().find_map(text) else { return Ok(None) };
+        let heights = parameters.floor.height_field.iter().map(|field| (field.file.clone(), field.text.to_string()));
+        let texts = FloorTexts { plant, files: heights.collect(), seed: self.seed };
+        // Without it a page draws a plane.
+        Ok(texts.leave_in(instance.folder()).ok())
     }
 
     /// The URDF for MuJoCo, if the robot was imported from one.

@@ -16,6 +16,7 @@ mod reply;
 mod report;
 mod request;
 mod setpoint;
+mod true_pose;
 
 use std::fmt::Debug;
 
@@ -28,6 +29,7 @@ pub use reply::ReplyMessage;
 pub use report::ReportMessage;
 pub use request::RequestMessage;
 pub use setpoint::SetpointMessage;
+pub use true_pose::TruePoseMessage;
 
 /// The tick of a message that has not been written yet. No writer counts that far.
 pub const NEVER_WRITTEN: u64 = u64::MAX;
