@@ -200,7 +200,7 @@ fn root_does_not_break_a_users_robot() {
         setpriv.args([&format!("--reuid={NOBODY}"), &format!("--regid={NOBODY}"), "--clear-groups"]);
         setpriv.args(["sh", "-c", &of_nobody(words)]).stderr(std::process::Stdio::null()).spawn().unwrap()
     });
-    let asked = (0..200).any(|_| {
+    let asked = (0..3000).any(|_| {
         std::thread::sleep(std::time::Duration::from_millis(20));
         as_nobody(&of_nobody("send turn 3")).status.success()
     });

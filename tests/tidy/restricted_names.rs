@@ -57,6 +57,7 @@ pub const FILES: Restriction<'_> = Restriction {
         ("crates/plots/src/run_log/csv_file.rs", "the tables of a run"),
         ("crates/record/src/", "recordings"),
         ("crates/runtime/src/scheduling.rs", "the cores that the system offers"),
+        ("crates/view/src/floor_texts.rs", "the floor that a plant has told of"),
         ("crates/wire/src/connect_lock.rs", "the lock file"),
         ("crates/wire/src/leftovers.rs", "files left behind by a killed process"),
         ("crates/wire/src/running.rs", "the folders of all instances"),

@@ -1,8 +1,8 @@
 //! What a page shows of a walk, whoever walks: processes, a recording, or the page itself.
 //!
-//! A page gets the robot once ([`RobotDrawing`]), the floor near it where that is no plane ([`FloorCells`]), and then frames ([`ViewFrame`]), each the state of one instant, which
-//! a [`FrameAssembler`] makes of reports and measurements. [`ToPage`] and [`FromPage`] are the messages to and from a
-//! page; what it draws of them is in `tools/view`.
+//! A page gets the robot once ([`RobotDrawing`]), the floor near it where that is no plane ([`FloorCells`]), and then
+//! frames ([`ViewFrame`]), each the state of one instant, which a [`FrameAssembler`] makes of reports and measurements.
+//! [`ToPage`] and [`FromPage`] are the messages to and from a page; what it draws of them is in `tools/view`.
 
 mod floor_cells;
 mod frame_assembler;
