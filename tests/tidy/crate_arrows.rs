@@ -19,7 +19,7 @@ pub const BASE: &str = "interface model signal config";
 pub const ARROWS: Table<'_> = &[
     ("cli", "ALL"),
     ("bench", "ALL"),
-    ("web", "BASE controller plant pattern gait robots interchange scene dialogue"),
+    ("web", "BASE controller plant pattern gait paper robots interchange scene dialogue"),
     ("view", "BASE operator record wire runtime scene dialogue"),
     ("teleop", "BASE operator wire runtime"),
     ("doctor", "BASE controller plant interchange pattern gait dynamics"),
