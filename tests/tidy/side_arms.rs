@@ -9,6 +9,7 @@ use crate::syntax::{Token, parse_without_tests, tokens};
 
 /// Files that may have `Side::Right =>` or `Side::Left =>`, each with its reason.
 pub const ALLOWED: &[(&str, &str)] = &[
+    ("crates/charts/src/colours.rs", "the colour of a side"),
     ("crates/dynamics/src/leg_geometry.rs", "the right leg's chain begins at the foot, the left one's at the pelvis"),
     ("crates/dynamics/src/leg_solver.rs", "the right leg's chain begins at the foot, the left one's at the pelvis"),
     ("crates/interchange/src/side_name.rs", "the name of a side"),
@@ -18,7 +19,6 @@ pub const ALLOWED: &[(&str, &str)] = &[
     ("crates/model/src/sole.rs", "the inner edge of a sole"),
     ("crates/paper/src/picture.rs", "mirrors a footprint"),
     ("crates/plots/src/picture/balance_over_time.rs", "the name of a side"),
-    ("crates/plots/src/picture/colours.rs", "the colour of a side"),
     ("crates/synthesis/src/error.rs", "the name of a side"),
     ("crates/wire/src/message/report.rs", "the number of a side"),
 ];

@@ -10,14 +10,18 @@ const common = {
   legalComments: 'none', write: false, outdir: 'out',
 };
 
-const thread = await build({ ...common, entryPoints: ['src/walk_here/walk_thread.js'] });
-const program = thread.outputFiles[0].text;
-/** The thread's program as a text within the page's. */
+/** The threads' programs, by the names by which the page imports them as texts. */
+const THREADS = {
+  walk_thread: 'src/walk_here/walk_thread.js', instrument_thread: 'src/instrument/instrument_thread.js',
+};
 const asText = {
-  name: 'thread as text',
+  name: 'threads as texts',
   setup({ onResolve, onLoad }) {
-    onResolve({ filter: /^walk_thread$/ }, () => ({ path: 'walk_thread', namespace: 'text' }));
-    onLoad({ filter: /.*/, namespace: 'text' }, () => ({ contents: program, loader: 'text' }));
+    onResolve({ filter: /^\w+_thread$/ }, ({ path }) => ({ path, namespace: 'text' }));
+    onLoad({ filter: /.*/, namespace: 'text' }, async ({ path }) => {
+      const thread = await build({ ...common, entryPoints: [THREADS[path]] });
+      return { contents: thread.outputFiles[0].text, loader: 'text' };
+    });
   },
 };
 const bundle = await build({ ...common, entryPoints: { page: 'src/walk_here/main.js' }, plugins: [asText] });
@@ -40,6 +44,8 @@ let page = await text('src/index.html');
 page = replaced(page, '<title>halfstep view</title>', `<title>halfstep</title>\n<!--\n${notices.join('\n')}-->`);
 page = replaced(page, '<link rel="stylesheet" href="view.css">', `<style>${output('.css')}</style>`);
 page = replaced(page, '<button id="stop"', `${panel}<button id="stop"`);
+page = replaced(page, '<div id="instance">', `${await text('src/walk_here/views.html')}<div id="instance">`);
+page = replaced(page, '<script type="module"', `${await text('src/instrument/panel.html')}<script type="module"`);
 page = replaced(page, '<script type="module" src="view.js"></script>', [
   `<script type="text/plain" id="walker">${walker}</script>`,
   `<script>${output('.js').replaceAll('</script', '<\\/script')}</script>`,

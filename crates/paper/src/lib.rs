@@ -2,6 +2,7 @@
 
 mod figure;
 mod half_step_zmp;
+mod instrument;
 mod page;
 mod paper_lean;
 mod picture;
@@ -13,6 +14,10 @@ mod table;
 
 pub use figure::{BestLean, Figure, reproduce};
 pub use half_step_zmp::{GroundSplit, ZmpExtents, zmp_by_newton_euler, zmp_by_speed_law};
+pub use instrument::{
+    ChoiceDial, Dials, DrawnFigure, FigureName, Instrument, InstrumentAnswer, InstrumentError, NumberDial, Question,
+    VerdictRow, built_in_other_axes, built_in_reading, built_in_scenarios,
+};
 pub use page::page;
 pub use paper_lean::{LeanAt, PaperLean};
 pub use picture::paper_figure;

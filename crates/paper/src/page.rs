@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
+use charts::html::{data_url, escape};
 use gait::DeflectionPhase;
-use plots::html::{data_url, escape};
 
 use super::Figure;
 use super::table::{agreement, lean_text, number, summary, verdict};

@@ -1,12 +1,12 @@
 //! Picture of a figure of the paper: soles to scale, and the ZMP under the support foot, over full steps.
 
+use charts::chart::{Chart, Map, Pen, Point, maps};
+use charts::colours::{COM, LEFT, PLANNED, RIGHT, ZMP};
+use charts::sole_outline::{draw_arrow_head, draw_sole, sole_outline};
 use gait::{DeflectionPhase, Robot, WalkError};
 use interface::Command;
 use model::{Mechanism, Side};
 use nalgebra::{Isometry2, Isometry3, Point2, Vector2, Vector3};
-use plots::picture::chart::{Chart, Map, Pen, Point, maps};
-use plots::picture::colours::{COM, LEFT, PLANNED, RIGHT, ZMP};
-use plots::picture::sole_outline::{draw_arrow_head, draw_sole, sole_outline};
 
 use super::{Figure, Reading, SteadyHalfStep, summary};
 

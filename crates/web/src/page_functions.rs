@@ -5,12 +5,13 @@ use std::cell::RefCell;
 
 use scene::FromPage;
 
-use crate::{Beginning, PageWalk, WalkNews};
+use crate::{Beginning, PageWalk, PaperInstrument, PaperNews, WalkNews};
 
-/// The walk of the page, and the texts from and to it.
+/// The walk of the page or its instrument, and the texts from and to it.
 #[derive(Debug, Default)]
 struct PageState {
     walk: Option<PageWalk>,
+    paper: Option<PaperInstrument>,
     input: Vec<u8>,
     output: String,
 }
@@ -74,6 +75,27 @@ pub extern "C" fn halfstep_walk(ticks: u32) {
             walk.walk_on(ticks);
         }
         state.give_output();
+    });
+}
+
+/// Begins the paper as an instrument; the output says what can be turned.
+#[unsafe(no_mangle)]
+pub extern "C" fn halfstep_paper() {
+    STATE.with_borrow_mut(|state| {
+        let news = match PaperInstrument::new() {
+            Ok(paper) => state.paper.insert(paper).dials(),
+            Err(problem) => PaperNews::Problem(problem),
+        };
+        state.output = news.text();
+    });
+}
+
+/// Answers the input, a [`Question`](paper::Question).
+#[unsafe(no_mangle)]
+pub extern "C" fn halfstep_ask() {
+    STATE.with_borrow_mut(|state| {
+        let news = state.paper.as_mut().map(|paper| paper.answer(&state.input));
+        state.output = news.map(|news| news.text()).unwrap_or_default();
     });
 }
 

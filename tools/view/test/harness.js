@@ -112,9 +112,9 @@ export class Browser {
     return Object.assign(new Browser(), { browser, consoleErrors: [] });
   }
 
-  /** Opens a page, and waits until it shows a robot. */
-  async page(url) {
-    const page = await this.browser.newPage({ viewport: { width: 880, height: 640 } });
+  /** Opens a page. */
+  async openPage(url, viewport) {
+    const page = await this.browser.newPage({ viewport });
     page.setDefaultTimeout(PATIENCE);
     page.on('console', (message) => {
       if (['error', 'warning'].includes(message.type()) && !message.text().includes('GPU stall')) {
@@ -123,6 +123,12 @@ export class Browser {
     });
     page.on('pageerror', (error) => this.consoleErrors.push(error.message));
     await page.goto(url);
+    return page;
+  }
+
+  /** Opens a page, and waits until it shows a robot. */
+  async page(url) {
+    const page = await this.openPage(url, { width: 880, height: 640 });
     // Software draws here: as little as may be.
     await page.evaluate(() => window.halfstep.viewport.setQuality(9));
     await until(() => page.evaluate(() => Boolean(window.halfstep.frame && window.halfstep.runs[0].robot.angles)));

@@ -36,7 +36,8 @@ pub(super) struct SearchArgs {
     /// Seed of the search: the same one finds the same
     #[arg(long, value_name = "N", default_value_t = 1, requires = "search")]
     seed: u64,
-    /// Let the search change only these: axes, ramps, and the named numbers [default: all]
+    /// Let the search change only these: axes, ramps, and the named numbers [default: all but leg_mass_share,
+    /// arm_mass_share and hip_height_share]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = varied(), requires = "search")]
     vary: Vec<String>,
 }
@@ -91,8 +92,15 @@ impl SearchArgs {
     }
 
     fn freedom(&self) -> Freedom {
-        let may = |name: &str| self.vary.is_empty() || self.vary.iter().any(|varied| varied == name);
-        Freedom { numbers: OPEN_NUMBERS.map(|number| may(number.name)), ramps: may("ramps"), axes: may("axes") }
+        let may = |name: &str, unless_told: bool| match self.vary.as_slice() {
+            [] => unless_told,
+            vary => vary.iter().any(|varied| varied == name),
+        };
+        Freedom {
+            numbers: OPEN_NUMBERS.map(|number| may(number.name, number.is_searched)),
+            ramps: may("ramps", true),
+            axes: may("axes", true),
+        }
     }
 }
 

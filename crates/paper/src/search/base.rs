@@ -54,25 +54,54 @@ impl SearchBase {
         Ok(Self { mechanisms, reading_text, scenarios, before, nearest })
     }
 
+    /// The candidate nearest to the folder's robot and reading.
+    pub fn nearest(&self) -> &Candidate {
+        &self.nearest
+    }
+
+    /// The names of the mechanisms' files.
+    pub fn axes(&self) -> Vec<&str> {
+        self.mechanisms.iter().map(|file| file.name.as_str()).collect()
+    }
+
+    /// The scenarios of which the paper states a verdict.
+    pub fn scenarios(&self) -> &[Scenario] {
+        &self.scenarios
+    }
+
     /// The mechanism's file that a candidate changes.
     fn file(&self, candidate: &Candidate) -> &MechanismFile {
         &self.mechanisms[candidate.mechanism]
     }
 
     /// The sole of a candidate.
-    pub(super) fn sole(&self, candidate: &Candidate) -> Sole {
+    pub(crate) fn sole(&self, candidate: &Candidate) -> Sole {
         candidate.sole(&self.file(candidate).mechanism.sole)
+    }
+
+    /// The robot of a candidate, with a nominal half-step of its own.
+    pub(crate) fn robot(&self, candidate: &Candidate) -> Result<Robot, SearchError> {
+        candidate.robot(self.file(candidate))
     }
 
     /// The ZMP path of each scenario with a candidate, relative to O (m).
     pub(super) fn paths(&self, candidate: &Candidate) -> Result<Vec<Vec<Vector2<f64>>>, SearchError> {
+        self.paths_of(&self.robot(candidate)?, candidate)
+    }
+
+    fn paths_of(&self, robot: &Robot, candidate: &Candidate) -> Result<Vec<Vec<Vector2<f64>>>, SearchError> {
         let scenarios: Vec<Scenario> = self.scenarios.iter().map(|scenario| candidate.scenario(scenario)).collect();
-        paths(&candidate.robot(self.file(candidate))?, candidate.reading, &scenarios)
+        paths(robot, candidate.reading, &scenarios)
     }
 
     /// The verdicts of a candidate.
     pub(super) fn verdicts(&self, candidate: &Candidate) -> Result<Verdicts, SearchError> {
-        Ok(Verdicts::of_paths(&self.scenarios, &self.paths(candidate)?, &self.sole(candidate)))
+        self.verdicts_of(&self.robot(candidate)?, candidate)
+    }
+
+    /// The verdicts of a candidate whose robot is known.
+    pub(crate) fn verdicts_of(&self, robot: &Robot, candidate: &Candidate) -> Result<Verdicts, SearchError> {
+        Ok(Verdicts::of_paths(&self.scenarios, &self.paths_of(robot, candidate)?, &self.sole(candidate)))
     }
 
     /// The files of a candidate that differ from the folder's; `scenarios` are the files of all scenarios.
@@ -113,6 +142,9 @@ fn nearest(robot: &Robot, reading: Reading, scenarios: &[Scenario]) -> Result<Ca
         (Open::Stature, 1.0),
         (Open::HipDistance, mechanism.links[Joint::LeftHipRoll].origin.y),
         (Open::TrunkMass, 1.0),
+        (Open::LegMass, 1.0),
+        (Open::ArmMass, 1.0),
+        (Open::HipHeight, 1.0),
     ];
     let grains = values.map(|(open, value)| OPEN_NUMBERS[open as usize].nearest(value));
     Ok(Candidate { grains, mechanism: 0, reading })

@@ -10,7 +10,7 @@ use synthesis::{LegPattern, SynthesisParameters, synthesize};
 
 use super::error::SearchError;
 use super::files::{FileText, MechanismFile};
-use super::open_number::{OPEN_COUNT, OPEN_NUMBERS, Open};
+use super::open_number::{OPEN_COUNT, OPEN_NUMBERS, Open, SOLE_COUNT};
 use super::toml_values::replaced;
 use crate::{RAMPS, Reading, Scenario};
 
@@ -38,6 +38,15 @@ impl Candidate {
         self
     }
 
+    /// The same body and half-step, with the sole, the extended steps and the reading of `other`, on which the
+    /// half-step does not depend.
+    pub(crate) fn with_sole_and_reading_of(mut self, other: &Self) -> Self {
+        for open in (0..SOLE_COUNT).chain([Open::Extension as usize]) {
+            self.grains[open] = other.grains[open];
+        }
+        Self { reading: other.reading, ..self }
+    }
+
     /// Whether every open number is within its plausible range.
     pub fn is_plausible(&self) -> bool {
         OPEN_NUMBERS.iter().zip(self.grains).all(|(number, grains)| (number.min..=number.max).contains(&grains))
@@ -54,12 +63,12 @@ impl Candidate {
         let text = self.mechanism_text(file)?;
         let mechanism = Mechanism::from_toml(&text, &file.name)?;
         let parameters = self.parameters(&mechanism);
-        let nominal = synthesize(&mechanism, &LegPattern::Pendulum, &parameters, &self.made_by())?.table;
+        let nominal = synthesize(&mechanism, &LegPattern::Pendulum, &parameters, &self.made_by(&parameters))?.table;
         Ok(Robot { mechanism, nominal: Arc::new(nominal) })
     }
 
     /// The scenario with the candidate's length of an extended step.
-    pub(super) fn scenario(&self, scenario: &Scenario) -> Scenario {
+    pub(crate) fn scenario(&self, scenario: &Scenario) -> Scenario {
         let mut scenario = scenario.clone();
         if scenario.request.extension != 0.0 {
             scenario.request.extension = self.value(Open::Extension).to_radians();
@@ -101,19 +110,21 @@ impl Candidate {
 
     /// Parameters of the half-step: those of the robot's proportions but for the open ones.
     fn parameters(&self, mechanism: &Mechanism) -> SynthesisParameters {
+        let default = SynthesisParameters::for_robot(mechanism);
         SynthesisParameters {
             step_length: self.value(Open::StepLength),
             duration: self.value(Open::Duration),
             pelvis_sway: self.value(Open::PelvisSway),
             pelvis_setback: self.value(Open::PelvisSetback),
             clearance: self.value(Open::Clearance),
-            ..SynthesisParameters::for_robot(mechanism)
+            hip_height: default.hip_height * self.value(Open::HipHeight),
+            ..default
         }
     }
 
     /// The command that makes the same half-step in the folder of the candidate.
-    fn made_by(&self) -> String {
-        format!(
+    fn made_by(&self, parameters: &SynthesisParameters) -> String {
+        let command = format!(
             "halfstep synthesize --mechanism mechanism.toml --out nominal_half_step.csv --step-length {} --duration {} \
              --clearance {} --pelvis-sway {} --pelvis-setback {}",
             self.value(Open::StepLength),
@@ -121,7 +132,21 @@ impl Candidate {
             self.value(Open::Clearance),
             self.value(Open::PelvisSway),
             self.value(Open::PelvisSetback),
-        )
+        );
+        if self.value(Open::HipHeight) == 1.0 {
+            return command;
+        }
+        format!("{command} --hip-height {}", parameters.hip_height)
+    }
+
+    /// How many times as heavy as in the file the link of a joint is; the pelvis is what the others are compared with.
+    fn mass_share(&self, joint: Joint) -> f64 {
+        match joint {
+            Mechanism::TRUNK => self.value(Open::TrunkMass),
+            Joint::RightHipRoll | Joint::WaistPitch => 1.0,
+            joint if joint.is_in_arm() => self.value(Open::ArmMass),
+            _ => self.value(Open::LegMass),
+        }
     }
 
     /// Keys and values that differ from those of the mechanism's file. A greater stature lengthens all segments, at the
@@ -137,7 +162,6 @@ impl Candidate {
         }
         let stature = self.value(Open::Stature);
         let wider = self.value(Open::HipDistance) / of_file.links[Joint::LeftHipRoll].origin.y / stature;
-        let trunk = self.value(Open::TrunkMass);
         if stature != 1.0 {
             set("sole.ankle_height_m".to_owned(), (of_file.sole.ankle_height * stature).to_string());
         }
@@ -156,7 +180,7 @@ impl Candidate {
             if link.body.mass == 0.0 {
                 continue;
             }
-            let heavier = if joint == Mechanism::TRUNK { trunk } else { 1.0 };
+            let heavier = self.mass_share(joint);
             set_vector("com_m", link.body.com, between_hips(link.body.com, is_pelvis) * stature);
             set_vector("inertia_kg_m2", link.body.inertia, link.body.inertia * (stature * stature * heavier));
             if heavier != 1.0 {

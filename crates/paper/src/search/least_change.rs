@@ -76,7 +76,7 @@ pub(super) fn single_change(
         let own = judged.candidate.grains[open];
         for direction in [1, -1] {
             let step = (width / STEPS).max(1) * direction;
-            let ends = number.min - width / 2..=number.max + width / 2;
+            let ends = number.reach();
             let grains = (1..=2 * STEPS).map(|count| own + step * count);
             let along: Vec<i32> = grains.filter(|grains| ends.contains(grains) && *grains > 0).collect();
             let candidates: Vec<Candidate> = along.iter().map(|grains| judged.candidate.with(open, *grains)).collect();

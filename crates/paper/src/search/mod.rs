@@ -19,6 +19,7 @@ pub use files::{FileText, FoundFiles};
 pub use freedom::Freedom;
 pub use open_number::{OPEN_NUMBERS, Open, OpenNumber};
 pub use report::SearchReport;
+pub(crate) use verdicts::Verdicts;
 
 use candidate_pool::{CandidatePool, Judged, as_it_is};
 use least_change::{SingleChange, single_change, with_least_change};

@@ -12,7 +12,7 @@ pub(super) const SPARE: f64 = 2e-4;
 
 /// How the stated verdicts turn out.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Verdicts {
+pub(crate) struct Verdicts {
     /// For each scenario, how far the least margin is on the side of the threshold that the paper states (m): negative
     /// where the verdict does not hold.
     pub slack: Vec<f64>,
@@ -33,7 +33,7 @@ impl Verdicts {
     }
 
     /// Number of verdicts that hold.
-    pub(super) fn held(&self) -> usize {
+    pub(crate) fn held(&self) -> usize {
         self.holds.iter().filter(|holds| **holds).count()
     }
 

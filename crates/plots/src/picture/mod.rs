@@ -5,8 +5,6 @@
 //! fall red.
 
 mod balance_over_time;
-pub mod chart;
-pub mod colours;
 mod compared_runs;
 mod compensation_over_time;
 mod drives_over_time;
@@ -18,7 +16,6 @@ mod joints_over_time;
 mod margin_over_time;
 mod nominal_footprints;
 mod nominal_stick;
-pub mod sole_outline;
 mod stick_walk;
 mod sticks;
 mod stretch;
@@ -28,6 +25,8 @@ mod zmp_in_sole;
 mod zmp_over_time;
 
 use model::Mechanism;
+
+pub use charts::{chart, colours, sole_outline};
 
 pub use balance_over_time::balance_over_time;
 pub use compared_runs::{ComparedRun, compared_footprints, compared_over_time};

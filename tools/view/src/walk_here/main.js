@@ -1,8 +1,11 @@
 // The page that walks by itself: one file, opened from a disk, without a server.
 import program from 'walk_thread';
 import './walk_here.css';
+import { openInstrument } from '../instrument/instrument_view.js';
 import { openPage } from '../page.js';
 import { readDropped } from './dropped_files.js';
+import { compiled } from './packed_module.js';
+import { onView } from './views.js';
 import { WalkConnection } from './walk_connection.js';
 
 /** How much a new measurement of the speed counts. */
@@ -84,6 +87,7 @@ addEventListener('dragleave', (event) => {
 addEventListener('drop', async (event) => {
   event.preventDefault();
   document.body.classList.remove('dropping');
+  location.hash = 'walk';
   try {
     begin({ urdf: await readDropped(event.dataTransfer.files) });
   } catch (error) {
@@ -92,14 +96,24 @@ addEventListener('drop', async (event) => {
   }
 });
 
+const module = compiled($('walker').textContent);
 openPage((handlers) => {
-  connection = new WalkConnection(withWalk(handlers), program, $('walker').textContent);
+  connection = new WalkConnection(withWalk(handlers), program, module);
   return connection;
+});
+const instrument = openInstrument(module);
+onView((view) => {
+  // What nobody sees neither walks nor is drawn.
+  const isWalk = view === 'walk';
+  connection.setPace(isWalk ? Number($('walk-pace').value) : 0);
+  window.halfstep.viewport.scene.visible = isWalk;
+  if (!isWalk) instrument.show();
 });
 connection.ready.then(() => begin({ in_the_box: $('robot').value }));
 
 // For tests and for the console.
 window.halfstep.here = {
+  instrument,
   get connection() {
     return connection;
   },

@@ -1,25 +1,18 @@
 // The way to a robot that walks in this browser: the same messages as over a socket to `halfstep view`.
-
-/** Bytes of a text in base 64 that is compressed by gzip. */
-async function unpacked(text) {
-  const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
-  return new Response(stream).arrayBuffer();
-}
+import { threadOf } from './packed_module.js';
 
 export class WalkConnection {
-  /** `program` is the text of the thread, `walker` the packed module. */
-  constructor(handlers, program, walker) {
+  /** `program` is the text of the thread, `module` the promise of the compiled module. */
+  constructor(handlers, program, module) {
     this.handlers = handlers;
-    const address = URL.createObjectURL(new Blob([program], { type: 'text/javascript' }));
-    this.thread = new Worker(address);
+    this.thread = threadOf(program);
     this.thread.onmessage = ({ data }) => this.#hear(data);
     this.thread.onerror = ({ message }) => handlers.problem(`the walk ended by an error: ${message}`);
-    this.ready = this.#start(walker);
+    this.ready = this.#start(module);
   }
 
-  async #start(walker) {
-    const module = await WebAssembly.compile(await unpacked(walker));
+  async #start(compiled) {
+    const module = await compiled;
     const ready = new Promise((resolve) => { this.isReady = resolve; });
     this.thread.postMessage({ module });
     return ready;

@@ -4,6 +4,8 @@
 // seconds per second (0 stops), `{ walk }` with the number of periods to walk as fast as it can. Out: texts of
 // messages as `halfstep view` sends them, and how fast it walks.
 
+import { ModuleTexts } from './module_texts.js';
+
 /** Time between two looks at the clock (ms), which is that between two frames. */
 const INTERVAL = 25;
 /** Most wall-clock time that is made up for (s). */
@@ -15,28 +17,21 @@ const SLICE = 25;
 const SLICE_MAX = 250;
 
 let walker = null;
+let texts = null;
 let pace = 1;
 let last = 0;
 /** Periods that are due, with their fraction. */
 let owed = 0;
 
-const encoder = new TextEncoder();
-const decoder = new TextDecoder();
-
 /** Gives the module a text for one of its functions, and the page what the module says. */
 function call(name, text) {
-  const bytes = encoder.encode(text);
-  const at = walker.halfstep_input(bytes.length);
-  new Uint8Array(walker.memory.buffer, at, bytes.length).set(bytes);
+  texts.give(text);
   walker[name]();
   say();
 }
 
 function say(more = {}) {
-  const at = walker.halfstep_output();
-  const bytes = new Uint8Array(walker.memory.buffer, at, walker.halfstep_output_length());
-  const texts = decoder.decode(bytes);
-  postMessage({ texts: texts ? texts.split('\n') : [], ...more });
+  postMessage({ texts: texts.said(), ...more });
 }
 
 /** Walks on by some periods; tells how many times as fast as in reality that was possible. */
@@ -63,6 +58,7 @@ function walkAtPace() {
 onmessage = async ({ data }) => {
   if (data.module) {
     walker = (await WebAssembly.instantiate(data.module, {})).exports;
+    texts = new ModuleTexts(walker);
     last = performance.now();
     setInterval(walkAtPace, INTERVAL);
     postMessage({ texts: [], ready: true });

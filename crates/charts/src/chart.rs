@@ -125,7 +125,7 @@ impl Chart {
     }
 
     /// Whether nothing was drawn.
-    pub(super) fn is_empty(&self) -> bool {
+    pub fn is_empty(&self) -> bool {
         self.plots.is_empty()
     }
 

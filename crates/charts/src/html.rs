@@ -1,4 +1,4 @@
-//! Helpers for HTML pages with pictures.
+//! HTML pages with pictures.
 
 pub use quick_xml::escape::escape;
 
