@@ -58,6 +58,18 @@ fn benches_measure_computing_latency_and_jitter() {
     }
 }
 
+#[test]
+fn nothing_is_measured_zero_times() {
+    let command_line = CommandLine::new(env!("CARGO_BIN_EXE_halfstep-under-test"));
+    for words in
+        ["compute --rounds 0", "latency --rounds 0", "latency --trips 0", "latency --requests 0", "jitter --segments 0"]
+    {
+        let ended = command_line.run(&format!("bench {words}"));
+        assert_eq!(ended.code, Some(2), "{words}: {}", ended.stderr);
+        assert!(ended.stderr.contains("0 is not in 1.."), "{words}: {}", ended.stderr);
+    }
+}
+
 fn text_of(series: &Value) -> String {
     ["group", "name"].map(|key| series[key].as_str().unwrap_or_default()).join(": ")
 }

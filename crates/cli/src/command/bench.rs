@@ -53,7 +53,7 @@ enum What {
     /// Inverse dynamics, plant step, controller tick and plan
     Compute {
         /// Number of interleaved rounds
-        #[arg(long, value_name = "N", default_value_t = 5)]
+        #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..))]
         rounds: u32,
         /// Duration of each round
         #[arg(long, alias = "turn", value_name = "DURATION", value_parser = duration, default_value = "300ms")]
@@ -62,20 +62,20 @@ enum What {
     /// Exchange between two processes, against iceoryx2 and plain shared memory; latency of the controller
     Latency {
         /// Number of interleaved rounds
-        #[arg(long, value_name = "N", default_value_t = 8)]
+        #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
         rounds: u32,
         /// Round trips per round, without pause
-        #[arg(long, value_name = "N", default_value_t = 20_000)]
+        #[arg(long, value_name = "N", default_value_t = 20_000, value_parser = clap::value_parser!(u64).range(1..))]
         trips: u64,
         /// Requests to the controller, one every 1.35 s
-        #[arg(long, value_name = "N", default_value_t = 20)]
+        #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
         requests: u32,
     },
     /// Wake-up latency of the loop, against cyclictest or a bare loop; the controller with and without recorder,
     /// observers and a page
     Jitter {
         /// Number of interleaved rounds
-        #[arg(long, value_name = "N", default_value_t = 12)]
+        #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..))]
         segments: u32,
         /// Duration of each round; 5s for figures to quote
         #[arg(long, value_name = "DURATION", value_parser = duration, default_value = "1s")]
