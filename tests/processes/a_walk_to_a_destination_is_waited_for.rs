@@ -8,11 +8,10 @@ use std::time::{Duration, Instant};
 
 use halfstep_tests::command_line::{CommandLine, Ended};
 use interface::{
-    Command, Destination, DestinationProgress, Faults, Footstep, HalfStep, Mode, Odometry, PeriodTiming, PlaceFrame,
-    PlaceList, Places, Reason, Reply, Report, Request, Verdict, WalkPose, Waypoint,
+    Command, Destination, DestinationProgress, Footstep, Mode, PeriodTiming, PlaceFrame, PlaceList, Places, Reason,
+    Reply, Report, Request, Verdict, WalkPose, Waypoint,
 };
 use model::Side;
-use nalgebra::Vector2;
 use runtime::now_ns;
 use wire::{ControllerPorts, ReplyMessage, ReportMessage};
 
@@ -54,26 +53,8 @@ impl Teller {
     }
 
     fn report_at(&mut self, time_ns: u64, mode: Mode, left: Option<(u32, f64)>) {
-        let report = Report {
-            mode,
-            half_step: HalfStep::first(Side::Right),
-            speed: 1.0,
-            turn: 0.0,
-            extension: 0.0,
-            sidestep: 0.0,
-            zmp_in_support: None,
-            zmp_planned: None,
-            margin: None,
-            lean: Vector2::zeros(),
-            added: None,
-            com_planned: None,
-            com_measured: None,
-            odometry: Odometry::default(),
-            destination: left.map(|(places_left, distance)| DestinationProgress { places_left, distance, turn: 0.0 }),
-            capturability: None,
-            estimate: interface::StateEstimate::default(),
-            faults: Faults::default(),
-        };
+        let destination = left.map(|(places_left, distance)| DestinationProgress { places_left, distance, turn: 0.0 });
+        let report = Report { destination, ..Report::of(mode) };
         let timing = PeriodTiming { tick: self.tick, time_ns, missed: 0, compute_ns: 0 };
         self.ports.reports.publish(&ReportMessage::new(&timing, &report)).unwrap();
         self.tick += 1;

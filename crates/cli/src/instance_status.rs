@@ -183,7 +183,6 @@ mod tests {
     use interface::{DestinationProgress, Fault};
 
     use super::*;
-    use crate::state_line::tests::report;
 
     fn status() -> InstanceStatus {
         let participants = Participants {
@@ -199,7 +198,7 @@ mod tests {
     fn a_walk_is_told_in_lines_of_at_most_eighty_columns() {
         let destination = Some(DestinationProgress { places_left: 3, distance: 1.23, turn: 0.0 });
         let faults = [Fault::MeasurementStale, Fault::UnexpectedPosture].into_iter().collect();
-        let report = Report { destination, faults, ..report(Mode::Faulted) };
+        let report = Report { destination, faults, ..Report::of(Mode::Faulted) };
         let state = ReportedState::new(&report, 12.345, Duration::from_millis(1700), Some(0.0361), 3);
         let kind = InstanceKind {
             robot: Some("paper: Vukobratović, Andrić, Borovac".to_owned()),

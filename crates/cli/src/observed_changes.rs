@@ -195,7 +195,6 @@ impl fmt::Display for WatchedChange {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::state_line::tests::report;
 
     fn events(changes: &[WatchedChange]) -> Vec<WatchEvent> {
         changes.iter().map(|change| change.event).collect()
@@ -209,7 +208,8 @@ mod tests {
     fn each_change_of_mode_is_told_once() {
         let mut changes = watched(None);
         let modes = [Mode::Walking, Mode::Walking, Mode::Stopping, Mode::Standing, Mode::Standing];
-        let told: Vec<usize> = (0..).zip(modes).map(|(tick, mode)| changes.after(tick, &report(mode)).len()).collect();
+        let told: Vec<usize> =
+            (0..).zip(modes).map(|(tick, mode)| changes.after(tick, &Report::of(mode)).len()).collect();
         assert_eq!(told, [1, 0, 1, 1, 0]);
         assert_eq!(changes.mode(), Some(Mode::Standing));
         assert_eq!(changes.end().to_string(), "    0.00 s the controller has left: standing");
@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn a_fault_is_told_again_only_after_a_while_and_passing_ones_never() {
-        let faulty = |fault| Report { faults: [fault].into_iter().collect(), ..report(Mode::Walking) };
+        let faulty = |fault| Report { faults: [fault].into_iter().collect(), ..Report::of(Mode::Walking) };
         let (missed, airborne) = (faulty(Fault::DeadlineMissed), faulty(Fault::InTheAir));
         let mut changes = watched(None);
         assert_eq!(events(&changes.after(0, &missed)), [WatchEvent::Fault, WatchEvent::Mode]);
@@ -233,7 +233,7 @@ mod tests {
         let mut told = Vec::new();
         for tick in 0..3000_u64 {
             let margin = if tick == 1500 { 0.01 } else { 0.03 };
-            told.extend(changes.after(tick, &Report { margin: Some(margin), ..report(Mode::Walking) }));
+            told.extend(changes.after(tick, &Report { margin: Some(margin), ..Report::of(Mode::Walking) }));
         }
         let margins: Vec<f64> = told.iter().filter_map(|change| change.margin_mm).collect();
         assert_eq!(
@@ -246,7 +246,7 @@ mod tests {
     fn the_end_of_a_walk_to_a_goal_is_told() {
         let at = |places: Option<u32>| {
             let destination = places.map(|places_left| DestinationProgress { places_left, distance: 1.0, turn: 0.0 });
-            Report { destination, ..report(Mode::Walking) }
+            Report { destination, ..Report::of(Mode::Walking) }
         };
         for (then, event) in [
             (at(Some(0)), WatchEvent::Arrived),
@@ -263,7 +263,7 @@ mod tests {
     #[test]
     fn a_controller_that_begins_anew_is_told() {
         let mut changes = watched(None);
-        changes.after(5000, &report(Mode::Walking));
-        assert_eq!(events(&changes.after(0, &report(Mode::Walking))), [WatchEvent::Restarted]);
+        changes.after(5000, &Report::of(Mode::Walking));
+        assert_eq!(events(&changes.after(0, &Report::of(Mode::Walking))), [WatchEvent::Restarted]);
     }
 }

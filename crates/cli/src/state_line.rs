@@ -50,44 +50,20 @@ fn tenths(value: f64) -> f64 {
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
-    use interface::{Faults, HalfStep, Mode, Odometry};
-    use model::Side;
+mod tests {
+    use interface::{Mode, Odometry};
 
     use super::*;
-
-    /// A report of a robot in this mode, which does nothing else.
-    pub(crate) fn report(mode: Mode) -> Report {
-        Report {
-            mode,
-            half_step: HalfStep::first(Side::Right),
-            speed: 1.0,
-            turn: 0.0,
-            extension: 0.0,
-            sidestep: 0.0,
-            zmp_in_support: None,
-            zmp_planned: None,
-            margin: None,
-            lean: Default::default(),
-            added: None,
-            com_planned: None,
-            com_measured: None,
-            capturability: None,
-            estimate: interface::StateEstimate::default(),
-            odometry: Odometry::default(),
-            destination: None,
-            faults: Faults::default(),
-        }
-    }
 
     #[test]
     fn a_line_has_the_same_width_whatever_the_robot_does() {
         let pose = WalkPose { x: -123.456, y: -0.001, heading: -3.1 };
         let velocity = WalkVelocity { ahead: -0.45, left: 0.0, turn: 0.0 };
-        let moved = Report { odometry: Odometry { pose, velocity, ..Odometry::default() }, ..report(Mode::Walking) };
+        let moved =
+            Report { odometry: Odometry { pose, velocity, ..Odometry::default() }, ..Report::of(Mode::Walking) };
         assert_eq!(state_line(&moved, Some(-0.0123)), "walking  x -123.46 y   0.00 m -178° -0.45 m/s margin  -12 mm");
         for mode in Mode::ALL {
-            assert_eq!(state_line(&report(*mode), None).chars().count(), 59, "{mode}");
+            assert_eq!(state_line(&Report::of(*mode), None).chars().count(), 59, "{mode}");
         }
     }
 }

@@ -1,9 +1,9 @@
 //! The state of the controller after a control period.
 
-use model::ComState;
+use model::{ComState, Side};
 use nalgebra::{Vector2, Vector3};
 
-use crate::{Capturability, DestinationProgress, Faults, HalfStep, Mode, Odometry};
+use crate::{Capturability, Command, DestinationProgress, Faults, HalfStep, Mode, Odometry};
 
 /// The state of the controller after a control period. Points, vectors and rotations are expressed in the support
 /// foot's sole frame, but for the odometry.
@@ -47,6 +47,34 @@ pub struct Report {
     pub destination: Option<DestinationProgress>,
     /// What is wrong.
     pub faults: Faults,
+}
+
+impl Report {
+    /// The report of a mode with nothing measured, planned or wrong and the nominal gait in force, at the beginning of
+    /// the walk frame: for whoever poses as a controller, and as a start for other reports.
+    pub fn of(mode: Mode) -> Self {
+        let Command { turn, speed, extension, sidestep } = Command::NOMINAL;
+        Self {
+            mode,
+            half_step: HalfStep::first(Side::Right),
+            speed,
+            turn,
+            extension,
+            sidestep,
+            zmp_in_support: None,
+            zmp_planned: None,
+            margin: None,
+            lean: Vector2::zeros(),
+            added: None,
+            com_planned: None,
+            com_measured: None,
+            capturability: None,
+            estimate: StateEstimate::default(),
+            odometry: Odometry::default(),
+            destination: None,
+            faults: Faults::default(),
+        }
+    }
 }
 
 /// What is estimated of the robot and its surroundings beside ZMP, centre of mass and place.

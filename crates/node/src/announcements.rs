@@ -116,33 +116,12 @@ impl Announcements {
 
 #[cfg(test)]
 mod tests {
-    use interface::{Command, Faults, GaitChange, HalfStep, Odometry, Reason, Report, Setpoint, SteadyWalk, Verdict};
-    use model::Side;
-    use nalgebra::Vector2;
+    use interface::{Command, GaitChange, Reason, Report, Setpoint, SteadyWalk, Verdict};
 
     use super::*;
 
     fn tick(mode: Mode, latched: Option<LatchedFault>) -> Tick {
-        let report = Report {
-            mode,
-            half_step: HalfStep::first(Side::Right),
-            speed: 1.0,
-            turn: 0.0,
-            extension: 0.0,
-            sidestep: 0.0,
-            odometry: Odometry::default(),
-            destination: None,
-            zmp_in_support: None,
-            zmp_planned: None,
-            margin: None,
-            lean: Vector2::zeros(),
-            added: None,
-            com_planned: None,
-            com_measured: None,
-            capturability: None,
-            estimate: interface::StateEstimate::default(),
-            faults: Faults::default(),
-        };
+        let report = Report::of(mode);
         let (setpoint, command) = (Setpoint::default(), Command::NOMINAL);
         Tick { setpoint, report, rejection: None, command, reply: None, superseded: None, latched }
     }

@@ -22,9 +22,9 @@ pub use view_frame::ViewFrame;
 #[cfg(test)]
 mod tests {
     use config::Config;
-    use interface::{Faults, HalfStep, Measurement, Mode, Odometry, Report};
-    use model::{JointVector, Mechanism, Side, Wrench};
-    use nalgebra::{Quaternion, Vector2, Vector3};
+    use interface::{Measurement, Mode, Report};
+    use model::{JointVector, Mechanism, Wrench};
+    use nalgebra::{Quaternion, Vector3};
 
     /// The paper's robot.
     pub(crate) fn mechanism() -> Mechanism {
@@ -48,25 +48,6 @@ mod tests {
 
     /// What a controller reports of a robot that stands.
     pub(crate) fn reported() -> Report {
-        Report {
-            mode: Mode::Standing,
-            half_step: HalfStep::first(Side::Right),
-            speed: 1.0,
-            turn: 0.0,
-            extension: 0.0,
-            sidestep: 0.0,
-            zmp_in_support: None,
-            zmp_planned: None,
-            margin: None,
-            lean: Vector2::zeros(),
-            added: None,
-            com_planned: None,
-            com_measured: None,
-            odometry: Odometry::default(),
-            destination: None,
-            capturability: None,
-            estimate: interface::StateEstimate::default(),
-            faults: Faults::default(),
-        }
+        Report::of(Mode::Standing)
     }
 }

@@ -37,8 +37,9 @@ pub(crate) fn end_after_terminal() -> Result<(), TeleopError> {
 /// # Errors
 /// The terminal is gone, or cannot be read.
 pub(crate) fn next_event(patience: Duration) -> Result<Option<Event>, TeleopError> {
-    let timeout = Timespec { tv_sec: 0, tv_nsec: i64::from(patience.subsec_nanos()) };
-    if is_gone(PollFlags::IN, Some(&timeout)) {
+    // A time that is too long for the system is waited for without an end.
+    let timeout = Timespec::try_from(patience).ok();
+    if is_gone(PollFlags::IN, timeout.as_ref()) {
         return Err(TeleopError::TerminalGone);
     }
     // Also without input: it may tell that the window has another size.

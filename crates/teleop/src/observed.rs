@@ -123,30 +123,15 @@ pub(crate) mod tests {
         let pose = WalkPose { x, y: -0.41, heading: 0.2 };
         let velocity = WalkVelocity { ahead: 0.3, left: -0.01, turn: 0.1 };
         let report = Report {
-            mode: Mode::Walking,
-            half_step: HalfStep { index: 34, ..HalfStep::first(model_side()) },
-            speed: 1.0,
+            half_step: HalfStep { index: 34, ..HalfStep::first(model::Side::Left) },
             turn: 0.1,
-            extension: 0.0,
             sidestep: -0.02,
-            zmp_in_support: None,
-            zmp_planned: None,
             margin: Some(margin),
-            lean: Default::default(),
-            added: None,
-            com_planned: None,
-            com_measured: None,
-            capturability: None,
-            estimate: interface::StateEstimate::default(),
             odometry: Odometry { pose, velocity, support_sole: pose, landings: [pose; 2] },
-            destination: None,
             faults,
+            ..Report::of(Mode::Walking)
         };
         ReportMessage::new(&PeriodTiming { tick, time_ns: 0, missed: 3, compute_ns: 0 }, &report)
-    }
-
-    fn model_side() -> model::Side {
-        model::Side::Left
     }
 
     #[test]

@@ -32,35 +32,9 @@ impl FallWatch {
 
 #[cfg(test)]
 mod tests {
-    use interface::{Faults, HalfStep, Odometry, PeriodTiming, Report, StateEstimate};
-    use model::Side;
-    use nalgebra::Vector2;
+    use interface::{PeriodTiming, Report};
 
     use super::*;
-
-    /// What a controller reports of a robot in some mode.
-    fn reported(mode: Mode, capturability: Capturability) -> Report {
-        Report {
-            mode,
-            half_step: HalfStep::first(Side::Right),
-            speed: 1.0,
-            turn: 0.0,
-            extension: 0.0,
-            sidestep: 0.0,
-            zmp_in_support: None,
-            zmp_planned: None,
-            margin: None,
-            lean: Vector2::zeros(),
-            added: None,
-            com_planned: None,
-            com_measured: None,
-            odometry: Odometry::default(),
-            destination: None,
-            capturability: Some(capturability),
-            estimate: StateEstimate::default(),
-            faults: Faults::default(),
-        }
-    }
 
     #[test]
     fn a_fall_is_noted_where_it_became_unavoidable() {
@@ -69,7 +43,7 @@ mod tests {
         let judged = [ByAnkles, BySteps, Lost, BySteps, Lost, Lost, Lost];
         for (tick, capturability) in judged.into_iter().enumerate() {
             let mode = if tick < 6 { Mode::Walking } else { Mode::Fallen };
-            let report = reported(mode, capturability);
+            let report = Report { capturability: Some(capturability), ..Report::of(mode) };
             let timing = PeriodTiming { tick: tick as u64, time_ns: 0, missed: 0, compute_ns: 0 };
             watch.take(tick as f64, &ReportMessage::new(&timing, &report));
         }

@@ -21,6 +21,8 @@ const POLL_INTERVAL: Duration = Duration::from_millis(1);
 const FRAME_INTERVAL: Duration = Duration::from_millis(25);
 /// Time between two looks whether the plant tells of a floor: it may come after the controller.
 const FLOOR_INTERVAL: Duration = Duration::from_secs(1);
+/// How old a true pose may be: older ones are of a plant that has gone. In lockstep much passes between two looks.
+const POSE_AGE_MAX: Duration = Duration::from_secs(10);
 /// Time between two attempts to connect.
 const RETRY_INTERVAL: Duration = Duration::from_millis(200);
 /// After this time without a report the connection is made anew: the controller may have gone.
@@ -95,7 +97,7 @@ impl LiveFeed {
         let (mut heard_ns, mut framed_ns) = (now_ns(), 0);
         let mut is_heard = false;
         let mut measured: Option<MeasurementMessage> = None;
-        let (mut floor, mut floor_sought_ns, mut true_sole) = (None, 0, None);
+        let (mut floor, mut floor_sought_ns, mut true_sole): (Option<NearFloor>, _, _) = (None, 0, None);
         let elapsed = |since: u64| Duration::from_nanos(now_ns().saturating_sub(since));
         while !self.frame.is_closed() && elapsed(heard_ns) < SILENCE_MAX {
             if measured.is_none() && elapsed(framed_ns) >= FRAME_INTERVAL {
@@ -105,7 +107,11 @@ impl LiveFeed {
                     floor_sought_ns = now_ns();
                     floor = NearFloor::of(&self.instance);
                 }
-                true_sole = floor.as_mut().and_then(NearFloor::true_sole);
+                let sole = floor.as_mut().zip(measured.as_ref()).map(|(floor, at)| floor.true_sole(at, rate));
+                if matches!(sole, Some(Err(OtherPlant))) {
+                    floor = None;
+                }
+                true_sole = sole.and_then(Result::ok).flatten();
             }
             // A report that cannot be received is a lost one.
             while let Ok(Some(report)) = ports.reports.next_report() {
@@ -148,6 +154,8 @@ impl LiveFeed {
 struct NearFloor {
     cells: FloorCells,
     poses: TruePoses,
+    /// The plant's period of the newest pose.
+    tick: u64,
     /// The cell in which the robot was.
     here: Option<FloorCell>,
 }
@@ -155,12 +163,18 @@ struct NearFloor {
 impl NearFloor {
     fn of(instance: &Instance) -> Option<Self> {
         let cells = FloorTexts::left_in(instance.folder())?.cells()?;
-        Some(Self { cells, poses: TruePoses::connect(instance).ok()?, here: None })
+        Some(Self { cells, poses: TruePoses::connect(instance).ok()?, tick: 0, here: None })
     }
 
-    /// Where the right sole truly is.
-    fn true_sole(&mut self) -> Option<Isometry3<f64>> {
-        self.poses.poses.latest()?.right_sole()
+    /// Where the right sole truly is at about the time of a measurement, whose plant counts its periods from its start;
+    /// an error if another plant has taken the place of the one whose floor this is.
+    fn true_sole(&mut self, measured: &MeasurementMessage, rate: Rate) -> Result<Option<Isometry3<f64>>, OtherPlant> {
+        let Some(pose) = self.poses.poses.latest() else { return Ok(None) };
+        if pose.tick < self.tick || pose.tick.abs_diff(measured.tick) > rate.ticks(POSE_AGE_MAX) {
+            return Err(OtherPlant);
+        }
+        self.tick = pose.tick;
+        Ok(pose.right_sole())
     }
 
     /// What a page is told when the robot has come to another cell.
@@ -173,3 +187,6 @@ impl NearFloor {
         Some(ToPage::Floor { index: 0, pieces: &pieces }.text())
     }
 }
+
+/// The plant whose floor was shown has gone.
+struct OtherPlant;

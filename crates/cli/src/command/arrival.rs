@@ -156,11 +156,10 @@ impl Followed {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::state_line::tests::report as report_in;
 
     fn report(mode: Mode, destination: Option<(u32, f64)>) -> Report {
         let progress = |(places_left, distance)| DestinationProgress { places_left, distance, turn: 0.0 };
-        Report { destination: destination.map(progress), ..report_in(mode) }
+        Report { destination: destination.map(progress), ..Report::of(mode) }
     }
 
     #[test]
