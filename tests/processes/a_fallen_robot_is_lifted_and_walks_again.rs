@@ -29,4 +29,8 @@ fn a_walk_goes_on_after_a_fall() {
         "the first reset is refused with its reason: {}",
         ended.stderr
     );
+    assert!(ended.stderr.contains("plant: the robot is on its feet again at "), "{}", ended.stderr);
+    assert!(summary["fault"]["cleared_at_s"].as_f64().is_some_and(|cleared| (7.0..7.1).contains(&cleared)));
+    // Half-steps before the fall and after it: two of the start and one every 0.6 s.
+    assert!(summary["half_steps"].as_u64().is_some_and(|count| (8..=10).contains(&count)), "{summary:#}");
 }

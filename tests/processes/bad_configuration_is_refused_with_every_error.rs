@@ -22,7 +22,7 @@ fn check_lists_every_error_of_every_file() {
         ("config/nominal_half_step.csv", "soon", "the header says `# duration_s = soon` where it must say"),
         ("config/controller.toml", "gian", "unknown key"),
         ("config/controller.toml", "[feedback]", "feedback.gain: is missing"),
-        ("config/plant.toml", "friction = -", "must lie between 0 and 10"),
+        ("config/plant.toml", "friction = -", "must lie between 0.01 and 10"),
         ("config/commands_demo.jsonl", "sped", "unknown field `sped`, expected one of `t`, `turn_deg`, `speed`"),
     ] {
         let line = 1 + command_line.read(file).lines().position(|line| line.contains(text)).expect("it was spoilt");

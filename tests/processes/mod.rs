@@ -40,4 +40,5 @@ mod send_finds_its_controller_or_names_the_others;
 mod the_committed_nominal_regenerates_bit_for_bit;
 mod the_first_commands_of_the_import_guide_walk;
 mod the_next_start_cleans_up_after_a_killed_process;
+mod the_program_works_from_any_folder;
 mod two_processes_walk_in_lockstep;

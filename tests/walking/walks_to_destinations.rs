@@ -12,8 +12,8 @@ use halfstep_tests::random;
 use halfstep_tests::velocity::{random_velocity, true_pose};
 use halfstep_tests::walking::Walking;
 use interface::{
-    Destination, Footstep, GaitChange, Intent, Mode, PlaceFrame, PlaceList, Places, Reason, Reply, Request, Source,
-    Verdict, WalkPose, WalkVelocity, Waypoint,
+    Destination, Footstep, GaitChange, Intent, Lifetime, Mode, PlaceFrame, PlaceList, Places, Reason, Reply, Request,
+    Source, Verdict, WalkPose, WalkVelocity, Waypoint,
 };
 use model::Side;
 use rand::Rng;
@@ -242,6 +242,36 @@ fn a_destination_is_cancelled_by_whatever_moves_the_robot_and_not_by_a_speed() {
         let tick = arrive(&mut walking);
         assert!(tick.report.destination.is_some_and(|progress| progress.distance < 0.02), "{:?}", tick.report);
     }
+}
+
+/// A stream that falls silent stops what it asked for, not the way to a destination of a source that outranks it.
+#[test]
+fn a_destination_outlives_the_stream_of_a_lower_source() {
+    let goal = pose(1.5, 0.0, 0.0);
+    let stream = Request { lifetime: Lifetime::Streamed, ..Request::new(Source::Script) };
+    let walk = Request { intent: Some(Intent::Walk), ..stream };
+    for source in [Source::Console, Source::Teleop] {
+        let mut walking = Walking::stand(4);
+        walking.walk(0.2);
+        assert_eq!(reply(&mut walking, &walk).authority, None);
+        let granted = reply(&mut walking, &Request { source, ..walk_through(&[goal]) });
+        assert_eq!(granted.authority.map(|other| other.source), Some(Source::Script));
+        arrive(&mut walking);
+    }
+    // A stream stops what outranks nobody: another source's walk, and a destination of a lower source.
+    let turn = Request { gait: GaitChange { turn: Some(0.1), ..GaitChange::NONE }, ..Request::new(Source::Console) };
+    let mut walking = Walking::stand(4);
+    walking.walk(0.2);
+    reply(&mut walking, &walk);
+    assert_eq!(reply(&mut walking, &turn).authority.map(|other| other.source), Some(Source::Script));
+    walking.walk(3.0);
+    assert_eq!(walking.tick(None).report.mode, Mode::Standing);
+    let mut walking = Walking::stand(4);
+    walking.walk(0.2);
+    reply(&mut walking, &Request { source: Source::Script, ..walk_through(&[goal]) });
+    assert_eq!(reply(&mut walking, &Request { source: Source::Teleop, ..stream }).authority, None);
+    walking.walk(3.0);
+    assert_eq!(walking.tick(None).report.mode, Mode::Standing, "who watched over it has gone");
 }
 
 #[test]

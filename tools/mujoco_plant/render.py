@@ -9,12 +9,19 @@
 
 import argparse
 import csv
+import os
 import struct
+import sys
 import zlib
 from pathlib import Path
 
-import mujoco
 import numpy as np
+
+try:
+    import mujoco
+except (AttributeError, ImportError, OSError) as cause:
+    graphics = os.environ.get("MUJOCO_GL", "")
+    sys.exit(f"MUJOCO_GL={graphics}: MuJoCo cannot draw with it here ({cause}); try MUJOCO_GL=egl")
 
 
 def main():

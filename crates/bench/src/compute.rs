@@ -77,6 +77,7 @@ pub fn compute(options: &ComputeOptions, after_round: impl Fn()) -> Result<Bench
         to: "its p50".to_owned(),
         number: "time".to_owned(),
         ratio: tick.quantile(0.99) / tick.quantile(0.5),
+        interval: None,
         at_most: 1.5,
     });
     let notes = vec![format!("Each number is the minimum of {} interleaved rounds.", options.rounds)];

@@ -143,6 +143,7 @@ pub fn in_realtime(
         to: "a period".to_owned(),
         number: "p99".to_owned(),
         ratio: to_effect.quantile(0.99) / period_ns as f64,
+        interval: None,
         at_most: 1.0,
     };
     let notes = vec![format!(

@@ -72,7 +72,7 @@ pub fn jitter(options: &JitterOptions, after_segment: impl Fn()) -> Result<Bench
         ratios.extend([ratio(spinning, 0.5, 0.05), ratio(spinning, 0.99, 0.05)]);
         let share = share.iter().sum::<f64>() / share.len().max(1) as f64;
         let (of, to) = (format!("{} ({group})", spinning.name), "a core".to_owned());
-        ratios.push(Ratio { of, to, number: "time".to_owned(), ratio: share, at_most: 0.2 });
+        ratios.push(Ratio { of, to, number: "time".to_owned(), ratio: share, interval: None, at_most: 0.2 });
     }
     notes.push(format!(
         "Each number is the median of {} interleaved segments of {:?}, at {:?}, each ratio that of the segments' \

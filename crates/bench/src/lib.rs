@@ -29,5 +29,5 @@ pub mod series;
 
 pub use error::BenchError;
 pub use machine::Machine;
-pub use report::{BenchReport, Ratio};
+pub use report::{BenchReport, Ratio, RatioVerdict};
 pub use series::{Reduction, Series};

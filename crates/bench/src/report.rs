@@ -32,6 +32,8 @@ pub struct Ratio {
     pub number: String,
     /// The measured ratio.
     pub ratio: f64,
+    /// Its 95 % confidence interval, see [`Series::interval`].
+    pub interval: Option<[f64; 2]>,
     /// The largest ratio that passes.
     pub at_most: f64,
 }
@@ -44,13 +46,43 @@ impl Ratio {
             to: theirs.name.clone(),
             number: number(quantile),
             ratio: ours.times(theirs, quantile),
+            interval: ours.interval(theirs, quantile),
             at_most,
         }
     }
 
-    /// Whether the ratio passes.
-    pub fn is_reached(&self) -> bool {
-        self.ratio <= self.at_most
+    /// Whether the ratio passes, as far as the rounds can tell.
+    pub fn verdict(&self) -> RatioVerdict {
+        let [low, high] = self.interval.unwrap_or([self.ratio; 2]);
+        if high <= self.at_most {
+            RatioVerdict::Reached
+        } else if low > self.at_most || self.ratio.is_nan() {
+            RatioVerdict::Missed
+        } else {
+            RatioVerdict::Unclear
+        }
+    }
+}
+
+/// Whether a ratio passes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RatioVerdict {
+    /// It does, and so does all of its interval.
+    Reached,
+    /// The largest ratio that passes lies within its interval: more or longer rounds would tell.
+    Unclear,
+    /// It does not, and nothing of its interval does.
+    Missed,
+}
+
+impl RatioVerdict {
+    fn text(self) -> &'static str {
+        match self {
+            Self::Reached => "reached",
+            Self::Unclear => "unclear",
+            Self::Missed => "missed",
+        }
     }
 }
 
@@ -72,8 +104,12 @@ impl fmt::Display for BenchReport {
                 writeln!(out, "\n{group:wide$}   {:>9} {:>9} {:>9} {:>9} {:>9}", "p50", "p90", "p99", "p99.9", "max")?;
             }
             write!(out, "{:wide$} µs", series.name)?;
-            for quantile in QUANTILES {
-                write!(out, "{} ", Micro(series.quantile(quantile)))?;
+            for (place, quantile) in QUANTILES.into_iter().enumerate() {
+                if place > 0 && series.is_one_per_round() {
+                    write!(out, "{:>9} ", "–")?;
+                } else {
+                    write!(out, "{} ", Micro(series.quantile(quantile)))?;
+                }
             }
             writeln!(out, "{}", Micro(series.max()))?;
         }
@@ -81,9 +117,10 @@ impl fmt::Display for BenchReport {
             writeln!(out, "\nratios within this run")?;
         }
         for ratio in &self.ratios {
-            let Ratio { of, to, number, ratio: value, at_most } = ratio;
-            let verdict = if ratio.is_reached() { "reached" } else { "missed" };
-            writeln!(out, "{value:8.2} of at most {at_most:4.2} {verdict:7}  {number} of {of} / {to}")?;
+            let Ratio { of, to, number, ratio: value, at_most, interval } = ratio;
+            let verdict = ratio.verdict().text();
+            let interval = interval.map_or(String::new(), |[low, high]| format!("({low:.2} to {high:.2})"));
+            writeln!(out, "{value:8.2} {interval:14} of at most {at_most:4.2} {verdict:7}  {number} of {of} / {to}")?;
         }
         for note in &self.notes {
             writeln!(out, "\n{note}")?;
@@ -115,9 +152,23 @@ impl Serialize for BenchReport {
         object.serialize_field("what", self.what)?;
         object.serialize_field("machine", &self.machine)?;
         object.serialize_field("series", &self.series.iter().map(SeriesInJson::from).collect::<Vec<_>>())?;
-        object.serialize_field("ratios", &self.ratios)?;
+        object.serialize_field("ratios", &self.ratios.iter().map(RatioInJson::from).collect::<Vec<_>>())?;
         object.serialize_field("notes", &self.notes)?;
         object.end()
+    }
+}
+
+/// A ratio as JSON.
+#[derive(Serialize)]
+struct RatioInJson<'r> {
+    #[serde(flatten)]
+    ratio: &'r Ratio,
+    verdict: RatioVerdict,
+}
+
+impl<'r> From<&'r Ratio> for RatioInJson<'r> {
+    fn from(ratio: &'r Ratio) -> Self {
+        Self { ratio, verdict: ratio.verdict() }
     }
 }
 
@@ -170,8 +221,27 @@ mod tests {
         let machine = Machine::of_this_process();
         let report = BenchReport { what: "latency", machine, series: vec![ours, theirs], ratios, notes: Vec::new() };
         let text = report.to_string();
-        assert!(text.contains("1.50 of at most 1.15 missed   p99.9 of ours / theirs"), "{text}");
+        assert!(text.contains("of at most 1.15 missed   p99.9 of ours / theirs"), "{text}");
         let json = serde_json::to_value(&report).unwrap();
         assert_eq!((&json["ratios"][0]["number"], &json["series"][1]["name"]), (&"p99.9".into(), &"theirs".into()));
+        assert_eq!(json["ratios"][0]["verdict"], "missed");
+    }
+
+    #[test]
+    fn a_bound_within_the_interval_is_neither_reached_nor_missed() {
+        let verdict = |interval| {
+            let ratio = Ratio {
+                of: String::new(),
+                to: String::new(),
+                number: String::new(),
+                ratio: 1.0,
+                interval: Some(interval),
+                at_most: 1.1,
+            };
+            ratio.verdict()
+        };
+        assert_eq!(verdict([0.9, 1.1]), RatioVerdict::Reached);
+        assert_eq!(verdict([0.9, 1.2]), RatioVerdict::Unclear);
+        assert_eq!(verdict([1.11, 1.2]), RatioVerdict::Missed);
     }
 }

@@ -26,6 +26,8 @@ pub enum Reduction {
 /// Longer times are recorded as this (ps).
 const TIME_MAX: u64 = 10_000_000_000_000;
 const PER_NS: f64 = 1000.0;
+/// Of fewer rounds than this, even the least and the greatest may lie on one side of the median with more than 5 %.
+const INTERVAL_ROUNDS_MIN: usize = 6;
 
 impl Series {
     /// A series without any round.
@@ -69,6 +71,26 @@ impl Series {
             return self.quantile(quantile) / other.quantile(quantile);
         }
         median(ours.iter().zip(theirs).map(|(ours, theirs)| ours / theirs).collect())
+    }
+
+    /// The 95 % confidence interval (-) of a ratio that is the median of the rounds' ratios, by their ranks alone.
+    /// `None` for a ratio of minima, and of fewer than six rounds, which have no such interval.
+    pub fn interval(&self, other: &Self, quantile: f64) -> Option<[f64; 2]> {
+        let [ours, theirs] = [self, other].map(|series| series.quantile_of_rounds(quantile));
+        if self.over == Reduction::Minimum || ours.len() != theirs.len() || ours.len() < INTERVAL_ROUNDS_MIN {
+            return None;
+        }
+        let mut ratios: Vec<f64> = ours.iter().zip(theirs).map(|(ours, theirs)| ours / theirs).collect();
+        ratios.sort_by(f64::total_cmp);
+        // The number of ratios below the true median is binomial.
+        let count = ratios.len() as f64;
+        let below = ((count - 1.96 * count.sqrt()) / 2.0).floor().max(0.0) as usize;
+        Some([ratios[below], ratios[ratios.len() - 1 - below]])
+    }
+
+    /// Whether each round has one time only: it has no quantiles.
+    pub fn is_one_per_round(&self) -> bool {
+        self.rounds.iter().all(|round| round.len() == 1)
     }
 
     /// The longest time of all (ns).
@@ -151,6 +173,27 @@ mod tests {
         assert!(close(series(Reduction::Median).max(), 90.0));
         assert_eq!(series(Reduction::Median).count(), 4000);
         assert!(Series::new("", "", Reduction::Median).quantile(0.5).is_nan());
+    }
+
+    /// Of twelve rounds, the third and the tenth: 3.9 % of twelve tosses have fewer than three heads or fewer than
+    /// three tails.
+    #[test]
+    fn the_interval_of_a_median_is_that_of_the_binomial_distribution() {
+        let series = |rounds: u32, unit: f64| {
+            let mut series = Series::new("group", "name", Reduction::Median);
+            for round in 1..=rounds {
+                series.begin_round();
+                series.add(if unit > 1.0 { f64::from(round) * unit } else { 1000.0 });
+            }
+            series
+        };
+        let interval = |rounds| series(rounds, 1000.0).interval(&series(rounds, 1.0), 0.5);
+        let [low, high] = interval(12).unwrap();
+        assert!((low - 3.0).abs() < 0.01 && (high - 10.0).abs() < 0.01, "{low} to {high}");
+        let [low, high] = interval(6).unwrap();
+        assert!((low - 1.0).abs() < 0.01 && (high - 6.0).abs() < 0.01, "{low} to {high}");
+        assert_eq!(interval(5), None);
+        assert!(series(12, 1.0).is_one_per_round());
     }
 
     #[test]

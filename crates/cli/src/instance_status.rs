@@ -116,7 +116,9 @@ fn thousandths(value: f64) -> f64 {
 /// What brings a robot back that does not walk any more.
 fn remedy(mode: Mode) -> Option<&'static str> {
     match mode {
-        Mode::Fallen => Some("put it on its feet (start its plant anew), then send reset"),
+        Mode::Fallen => Some(
+            "put it on its feet (a plant with --lift-when-fallen does so; start another one anew), then send reset",
+        ),
         Mode::Faulted => Some("send reset; a refused request names the fault"),
         _ => None,
     }

@@ -69,6 +69,13 @@ impl fmt::Display for SummaryInFolder<'_> {
     }
 }
 
+impl WalkSummary {
+    /// Whether a fault that no reset has cleared stopped the robot.
+    pub(crate) fn is_faulted(&self) -> bool {
+        self.fault.as_ref().is_some_and(|fault| !fault.is_cleared())
+    }
+}
+
 impl fmt::Display for WalkSummary {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
         let Measures { half_steps, distance_m, truth, estimated, falls, fall, .. } = self.measures;
@@ -82,10 +89,8 @@ impl fmt::Display for WalkSummary {
             "{half_steps} in {:.1} s: {distance_m:.2} m, turned {heading_deg:+.1}°, least margin {margin}, {falls}",
             self.duration_s
         )?;
-        writeln!(out, "{}", if self.fault.is_some() { ", stopped by a fault" } else { "" })?;
-        if let Some(FaultSummary { fault, time_s }) = &self.fault {
-            writeln!(out, "fault at {time_s:.2} s: {fault}; at the end {}", self.mode)?;
-        }
+        writeln!(out, "{}", if self.is_faulted() { ", stopped by a fault" } else { "" })?;
+        self.fault.as_ref().map_or(Ok(()), |fault| writeln!(out, "{fault}; at the end {}", self.mode))?;
         if let Some(Fall { time_s, unavoidable_s, half_step }) = fall {
             write!(out, "it fell at {time_s:.2} s in half-step {half_step}")?;
             match unavoidable_s {

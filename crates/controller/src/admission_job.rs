@@ -148,6 +148,11 @@ impl AdmissionJob {
         self.intent
     }
 
+    /// Whether the request is one to walk to places.
+    pub(crate) fn is_to_destination(&self) -> bool {
+        matches!(self.wanted, Wanted::Destination(..))
+    }
+
     fn decide(&mut self) -> Option<Decision> {
         let in_force = self.generator.command();
         let velocity = match self.wanted {

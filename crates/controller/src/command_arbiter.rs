@@ -8,7 +8,8 @@
 //! Sources of higher priority are granted what they request; with a stream they take authority over.
 //!
 //! A *latched* request holds no authority beyond its instant. From the source in control it ends the stream: what it
-//! requested stays in effect.
+//! requested stays in effect. From a source of higher priority it leaves the stream in control, whose timeout still
+//! stops the robot, unless that walks to a destination of the other source.
 
 use interface::{COMMAND_TIMEOUT_MAX, ControlAuthority, Lifetime, Request, Source};
 
@@ -60,11 +61,10 @@ impl CommandArbiter {
     /// A source of higher priority has control authority. Of such a request only a stop may be granted.
     pub fn admit(&mut self, request: &Request) -> Result<(), ControlAuthority> {
         let source = request.source;
-        if let Some(authority) = &self.authority
-            && self.outranks(authority.source, source)
+        if let Some(other) = self.other_in_control(source)
+            && self.outranks(other.source, source)
         {
-            let remaining = (authority.timeout - authority.age).max(0.0);
-            return Err(ControlAuthority { source: authority.source, remaining });
+            return Err(other);
         }
         match self.timeout(request) {
             Some(timeout) => self.authority = Some(Authority { source, timeout, age: 0.0, is_fresh: true }),
@@ -98,6 +98,13 @@ impl CommandArbiter {
         self.authority.map(|authority| authority.source)
     }
 
+    /// The authority of another source than this one, if any has it.
+    pub fn other_in_control(&self, than: Source) -> Option<ControlAuthority> {
+        let authority = self.authority.filter(|authority| authority.source != than)?;
+        let remaining = (authority.timeout - authority.age).max(0.0);
+        Some(ControlAuthority { source: authority.source, remaining })
+    }
+
     /// The command timeout of a request, if it is streamed and not exempt (s).
     fn timeout(&self, request: &Request) -> Option<f64> {
         match request.lifetime {
@@ -109,7 +116,8 @@ impl CommandArbiter {
         }
     }
 
-    fn outranks(&self, first: Source, second: Source) -> bool {
+    /// Whether the first source has the higher priority.
+    pub fn outranks(&self, first: Source, second: Source) -> bool {
         first != second
             && self.parameters.priority.into_iter().find(|&source| source == first || source == second) == Some(first)
     }

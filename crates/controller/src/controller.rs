@@ -12,7 +12,7 @@ use dynamics::{Kinematics, PlannedContact, ReferenceDynamics, Tree};
 use gait::{NominalTable, Start, Walk, WalkError};
 use interface::{
     AddedAngles, Fault, Faults, Intent, LatchedFault, Measurement, Mode, Reason, Rejection, Reply, Report, Setpoint,
-    StateEstimate, SteadyWalk,
+    Source, StateEstimate, SteadyWalk,
 };
 use model::{ComState, JointVector, Mechanism, Motion, Side};
 use nalgebra::Vector2;
@@ -81,6 +81,8 @@ pub struct Controller {
     has_sensor_fault: bool,
     capturability: CapturabilityEstimator,
     odometry: WalkOdometry,
+    /// Who sent the destination to which the robot walks, or walked last.
+    destination_source: Option<Source>,
     velocity_map: VelocityMap,
     /// For how long measurements have called for another step (s).
     push_seen_for: f64,
@@ -170,6 +172,7 @@ impl Controller {
             since_sample: 0.0,
             has_sensor_fault: false,
             odometry,
+            destination_source: None,
             velocity_map: VelocityMap::new(mechanism, walk.table()),
             push_seen_for: 0.0,
             time: 0.0,
@@ -191,7 +194,10 @@ impl Controller {
         let dt = playable(dt);
 
         // Does the source in control still send?
-        if self.arbiter.advance(dt, self.admission.waiting()).is_some() && self.state.intent().steps() {
+        if let Some(silent) = self.arbiter.advance(dt, self.admission.waiting())
+            && self.state.intent().steps()
+            && !self.walks_for_a_superior_of(silent)
+        {
             self.stop(Stance::Parallel);
         }
 

@@ -24,7 +24,9 @@ pub(crate) fn places_text(destination: &Destination) -> String {
 
 /// A destination, and when the robot will stand there.
 pub(crate) fn destination_text(destination: &Destination, request: &Request, reply: &Reply) -> String {
-    let arrival = reply.arrival.map_or(String::new(), |arrival| format!(", there in {arrival:.1} s"));
+    let arrival = reply
+        .arrival
+        .map_or(", farther than the walk is foreseen".to_owned(), |arrival| format!(", there in {arrival:.1} s"));
     // A speed that was not asked for is told where it is not the usual one.
     let asks_speed = request.gait.speed.is_some();
     let speed = if asks_speed || reply.granted.speed == 1.0 { String::new() } else { speed_text(reply.granted.speed) };
@@ -123,7 +125,10 @@ mod tests {
             ..goes_to(footsteps(1), PlaceFrame::Walk)
         };
         let far = Reply { arrival: None, ..accepted };
-        assert_eq!(reply_text(&faster, &far), "accepted: speed 1, 1 footstep, from half-step 12");
+        assert_eq!(
+            reply_text(&faster, &far),
+            "accepted: speed 1, 1 footstep, farther than the walk is foreseen, from half-step 12"
+        );
         let json = |reply: &Reply| serde_json::to_value(ReplyJson::from(reply)).unwrap();
         assert_eq!((&json(&accepted)["arrival_s"], json(&far).get("arrival_s")), (&12.34.into(), None));
     }

@@ -119,14 +119,24 @@ impl From<&Reply> for ReplyJson {
 pub fn reply_text(request: &Request, reply: &Reply) -> String {
     let from = format!("from half-step {}", reply.effect_half_step);
     let margin = reply.predicted_margin.map(|margin| format!("; predicted ZMP margin {:.1} mm", margin * 1e3));
-    let margin = margin.unwrap_or_default();
+    let after = margin.unwrap_or_default() + &other_in_control_text(request, reply);
     match reply.verdict {
-        Verdict::Accepted => format!("accepted: {}, {from}{margin}", granted_text(request, reply)),
+        Verdict::Accepted => format!("accepted: {}, {from}{after}", granted_text(request, reply)),
         Verdict::Limited => {
             let (granted, objection) = (granted_text(request, reply), objection_text(request, reply));
-            format!("limited to {granted}, {from}: {objection}{margin}")
+            format!("limited to {granted}, {from}: {objection}{after}")
         }
         Verdict::Refused => format!("refused: {}", objection_text(request, reply)),
+    }
+}
+
+/// Whose stream stays in control beside a granted request, which its end would undo.
+fn other_in_control_text(request: &Request, reply: &Reply) -> String {
+    match reply.authority {
+        Some(ControlAuthority { source, .. }) if reply.reason != Reason::Outranked && request.destination.is_none() => {
+            format!("; the stream of `{source}` stays in control: the robot stops if it falls silent")
+        }
+        _ => String::new(),
     }
 }
 
@@ -155,7 +165,7 @@ fn objection_text(request: &Request, reply: &Reply) -> String {
 }
 
 fn problem_text(request: &Request, reply: &Reply) -> String {
-    if let Some(ControlAuthority { source, remaining }) = reply.authority {
+    if let (Reason::Outranked, Some(ControlAuthority { source, remaining })) = (reply.reason, reply.authority) {
         let requester = request.source;
         return format!(
             "`{source}` is in control and outranks `{requester}`; its authority expires in {remaining:.2} s"
@@ -170,7 +180,10 @@ fn problem_text(request: &Request, reply: &Reply) -> String {
     let side = if value < limit { "at least" } else { "at most" };
     let [value, limit] = [value, limit].map(|number| (number * per_si * 1e3).round() / 1e3 + 0.0);
     let joint = joint.map(|joint| format!("joint {} ({}) ", joint.number(), joint.name())).unwrap_or_default();
-    format!("{} ({joint}{value}{name}, must be {side} {limit}{name})", reply.reason)
+    // The speed is a factor of time, which does not run backward.
+    let is_backward = reply.reason == Reason::SpeedLimit && request.gait.speed.is_some_and(|speed| speed < 0.0);
+    let hint = if is_backward { "; to walk backward, ask for a velocity vx below 0 instead" } else { "" };
+    format!("{} ({joint}{value}{name}, must be {side} {limit}{name}){hint}", reply.reason)
 }
 
 /// The granted values of everything that was requested.
@@ -291,6 +304,30 @@ mod tests {
         );
         let json = serde_json::to_value(ReplyJson::from(&refused)).unwrap();
         assert_eq!(json["in_command"], serde_json::json!({"source": "teleop", "remaining_s": 0.4201}));
+    }
+
+    #[test]
+    fn a_negative_speed_is_shown_the_way_backward() {
+        let active_limit = Some(ActiveLimit { joint: None, value: -1.0, limit: 0.5 });
+        let backward =
+            Request { gait: GaitChange { speed: Some(-1.0), ..GaitChange::NONE }, ..Request::new(Source::Console) };
+        assert_eq!(
+            reply_text(&backward, &Reply { active_limit, ..reply(Verdict::Refused, Reason::SpeedLimit) }),
+            "refused: the speed is outside the permitted range (-1, must be at least 0.5); to walk backward, ask for a \
+             velocity vx below 0 instead"
+        );
+    }
+
+    #[test]
+    fn a_stream_that_stays_in_control_is_named() {
+        let authority = Some(ControlAuthority { source: Source::Script, remaining: 0.3 });
+        let granted = Reply { authority, ..reply(Verdict::Accepted, Reason::None) };
+        let console = Request { source: Source::Console, ..faster() };
+        assert_eq!(
+            reply_text(&console, &granted),
+            "accepted: speed 1, from half-step 12; the stream of `script` stays in control: the robot stops if it \
+             falls silent"
+        );
     }
 
     fn is_about_a_place(reason: Reason) -> bool {

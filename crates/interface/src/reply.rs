@@ -28,7 +28,9 @@ pub struct Reply {
     pub place: Option<u32>,
     /// Foreseen time until the robot stands at its destination (s); `None` without one, and if it is far away.
     pub arrival: Option<f64>,
-    /// The source that outranks the request's, if the reason is [`Reason::Outranked`].
+    /// The source that outranks the request's, if the reason is [`Reason::Outranked`]; of a granted request, another
+    /// source whose stream stays in control: its timeout still stops the robot, unless that walks to the destination of
+    /// a source of higher priority.
     pub authority: Option<ControlAuthority>,
     /// Least predicted distance of the ZMP to the edge of the support polygon (m), negative outside; `None` if nothing
     /// was predicted.

@@ -67,7 +67,10 @@ impl Announcements {
     fn remedy(&self, fault: Fault) -> String {
         let reset = format!("`halfstep send --instance {} reset`", self.instance);
         match fault {
-            Fault::Fallen => format!("put the robot on its feet (start its plant anew), then {reset}"),
+            Fault::Fallen => format!(
+                "put the robot on its feet (a plant with --lift-when-fallen does so; start another one anew), then \
+                 {reset}"
+            ),
             _ => format!("when that is mended: {reset}"),
         }
     }
@@ -139,8 +142,8 @@ mod tests {
             let after = |(number, &(mode, latched))| announcements.after(&tick(mode, latched), number as f64);
             run.iter().enumerate().flat_map(after).collect::<Vec<String>>()
         };
-        let fault = "controller: fault at 3.30 s: the robot has fallen; put the robot on its feet (start its plant \
-                     anew), then `halfstep send --instance a reset`";
+        let fault = "controller: fault at 3.30 s: the robot has fallen; put the robot on its feet (a plant with \
+                     --lift-when-fallen does so; start another one anew), then `halfstep send --instance a reset`";
         let all = ["controller: walking at 0.00 s", fault, "controller: stopping at 1.00 s"];
         assert_eq!(lines(Announced::All)[..3], all);
         assert_eq!(lines(Announced::All)[3..], ["controller: faulted at 3.00 s"]);

@@ -25,8 +25,12 @@ pub struct ControllerRun {
     pub half_steps: u64,
     /// The mode after the last tick; `None` if the loop never began.
     pub mode: Option<Mode>,
-    /// The first fault that was latched, and when.
+    /// The first fault that was latched, and when; after a reset the next one.
     pub fault: Option<LatchedFault>,
+    /// When a reset cleared it: time since the first tick (s).
+    pub fault_cleared: Option<f64>,
+    /// Sum of the periods (s).
+    time: f64,
     /// How late periods began and how long they took; in lockstep they are never late.
     pub timing: TimingStats,
 }
@@ -50,7 +54,7 @@ pub fn run_controller<W: AdmissionWorker>(
 ) -> Result<ControllerRun, PeerSilent> {
     let mut run = ControllerRun::default();
     let mut histogram = TimingHistogram::new();
-    let mut must_hold = false;
+    let (mut must_hold, mut half_step) = (false, 0);
     let mut overload = Overload::new(hold_after_misses);
     while let Some(cycle) = cycles.wait(|| requests.collect(recorder))? {
         let time_ns = now_ns();
@@ -90,15 +94,51 @@ pub fn run_controller<W: AdmissionWorker>(
             tick,
         }));
         requests.answer(submitted, &tick, recorder);
-        let (half_steps, mode) = (tick.report.half_step.index, Some(tick.report.mode));
-        run = ControllerRun { ticks: cycle.tick + 1, half_steps, mode, fault: run.fault.or(tick.latched), ..run };
+        run.note(tick.report.mode, tick.latched, cycle.dt);
+        run.ticks = cycle.tick + 1;
+        // A reset after a fall begins to count anew.
+        run.half_steps += tick.report.half_step.index.saturating_sub(half_step);
+        half_step = tick.report.half_step.index;
     }
     Ok(ControllerRun { timing: histogram.stats(), ..run })
+}
+
+impl ControllerRun {
+    /// Whether a fault is latched.
+    pub fn is_faulted(&self) -> bool {
+        self.fault.is_some() && self.fault_cleared.is_none()
+    }
+
+    /// Notes mode and latched fault of a tick, which took `dt` seconds.
+    fn note(&mut self, mode: Mode, latched: Option<LatchedFault>, dt: f64) {
+        self.time += dt;
+        self.mode = Some(mode);
+        match (self.is_faulted(), latched) {
+            (true, None) => self.fault_cleared = Some(self.time),
+            // What follows from a latched fault is not its cause.
+            (true, Some(_)) | (false, None) => {}
+            (false, latched) => (self.fault, self.fault_cleared) = (latched, None),
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_fault_is_kept_until_another_one_follows_its_reset() {
+        let fault = |fault, time| Some(LatchedFault { fault, time, cause: None });
+        let (stale, fallen) = (fault(Fault::MeasurementStale, 0.5), fault(Fault::Fallen, 2.0));
+        let mut run = ControllerRun::default();
+        let told = [None, stale, fallen, None, None, fallen].map(|latched| {
+            run.note(Mode::Standing, latched, 1.0);
+            (run.fault, run.fault_cleared, run.is_faulted())
+        });
+        let cleared = (stale, Some(4.0), false);
+        let expected = [(None, None, false), (stale, None, true), (stale, None, true), cleared, cleared];
+        assert_eq!((&told[..5], told[5]), (&expected[..], (fallen, None, true)));
+    }
 
     #[test]
     fn the_request_of_the_loop_itself_replays_from_its_message() {

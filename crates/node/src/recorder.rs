@@ -94,8 +94,8 @@ pub fn of_controller(
 }
 
 /// Opens the plant's recorder. It tells when the controller begins, falls silent and comes back, and when the robot
-/// falls, publishes where the robot truly is and, if `to` names a folder, writes each entry into the plant's recording
-/// there.
+/// falls and is put on its feet, publishes where the robot truly is and, if `to` names a folder, writes each entry into
+/// the plant's recording there.
 ///
 /// # Errors
 /// The recording cannot be created, or the operating system refused a thread.
@@ -106,7 +106,7 @@ pub fn of_plant(
     announced: Announced,
     mut true_poses: LatestWriter<TruePoseMessage>,
 ) -> Result<(Recorder<PlantEvent>, RecorderThread), NodeError> {
-    let (mut has_begun, mut has_fallen) = (false, false);
+    let (mut has_begun, mut is_down) = (false, false);
     let take = move |writer: &mut RecordWriter, event: PlantEvent| {
         let entry = match event {
             PlantEvent::Tick(entry) => entry,
@@ -123,13 +123,14 @@ pub fn of_plant(
                 return writer.write(tick as u32, &[push_event(tick, &push)]);
             }
         };
-        if announced == Announced::All {
-            if entry.tick > 0 && !std::mem::replace(&mut has_begun, true) {
-                tell("plant: follows the controller");
-            }
-            if entry.truth.has_fallen() && !std::mem::replace(&mut has_fallen, true) {
-                tell(format_args!("plant: the robot has fallen at {:.2} s", rate.time(entry.tick)));
-            }
+        if announced == Announced::All && entry.tick > 0 && !std::mem::replace(&mut has_begun, true) {
+            tell("plant: follows the controller");
+        }
+        let was_down = std::mem::replace(&mut is_down, entry.truth.has_fallen());
+        // Who hears of faults only learns of the fall from the controller.
+        if was_down != is_down && (announced == Announced::All || was_down) {
+            let what = if is_down { "has fallen" } else { "is on its feet again" };
+            tell(format_args!("plant: the robot {what} at {:.2} s", rate.time(entry.tick)));
         }
         let right_sole = &entry.truth.soles[Side::Right.index()];
         true_poses.write(&TruePoseMessage::new(entry.tick, now_ns(), right_sole));

@@ -17,7 +17,7 @@ pub struct ControllerSummary {
     pub half_steps: u64,
     /// The mode after the last tick; empty if the loop never began.
     pub mode: String,
-    /// The first fault that was latched; absent in JSON if there is none.
+    /// The first fault that was latched, and after a reset the next one; absent in JSON if there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fault: Option<FaultSummary>,
     /// How many requests got which verdict.
@@ -43,11 +43,28 @@ pub struct FaultSummary {
     pub fault: String,
     /// When it was latched: time since the controller's first tick (s).
     pub time_s: f64,
+    /// When a reset cleared it, likewise (s); absent in JSON if none did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cleared_at_s: Option<f64>,
 }
 
-impl From<LatchedFault> for FaultSummary {
-    fn from(latched: LatchedFault) -> Self {
-        Self { fault: latched.text(), time_s: (latched.time * 1e3).round() / 1e3 }
+impl FaultSummary {
+    /// The summary of a fault that was latched, and of when a reset cleared it (s).
+    pub fn new(latched: &LatchedFault, cleared: Option<f64>) -> Self {
+        let rounded = |time: f64| (time * 1e3).round() / 1e3;
+        Self { fault: latched.text(), time_s: rounded(latched.time), cleared_at_s: cleared.map(rounded) }
+    }
+
+    /// Whether a reset has cleared it.
+    pub fn is_cleared(&self) -> bool {
+        self.cleared_at_s.is_some()
+    }
+}
+
+impl fmt::Display for FaultSummary {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        write!(out, "fault at {:.2} s: {}", self.time_s, self.fault)?;
+        self.cleared_at_s.map_or(Ok(()), |cleared| write!(out, ", cleared by a reset at {cleared:.2} s"))
     }
 }
 
@@ -81,9 +98,7 @@ impl fmt::Display for ControllerSummary {
         let Self { ticks, half_steps, mode, fault, requests, deadline_misses, timing, log_gaps, .. } = self;
         let mode = if mode.is_empty() { "never started" } else { mode };
         write!(out, "{}, {}, {mode}", counted(*ticks, "tick"), counted(*half_steps, "half-step"))?;
-        if let Some(FaultSummary { fault, time_s }) = fault {
-            write!(out, " (fault at {time_s:.2} s: {fault})")?;
-        }
+        fault.as_ref().map_or(Ok(()), |fault| write!(out, " ({fault})"))?;
         let (misses, gaps) = (counted(*deadline_misses, "deadline"), counted(*log_gaps, "report"));
         write!(out, "; {requests}; {misses} missed, {gaps} dropped")?;
         timing.map_or(Ok(()), |timing| write!(out, "; {timing}"))?;
@@ -127,11 +142,12 @@ mod tests {
 
     #[test]
     fn the_last_line_of_a_faulted_controller_names_fault_and_time() {
+        let latched = LatchedFault { fault: Fault::MeasurementStale, time: 3.3004, cause: None };
         let summary = ControllerSummary {
             ticks: 9000,
             half_steps: 1,
             mode: "faulted".to_owned(),
-            fault: Some(LatchedFault { fault: Fault::MeasurementStale, time: 3.3004, cause: None }.into()),
+            fault: Some(FaultSummary::new(&latched, None)),
             requests: Tally::default(),
             deadline_misses: 1,
             timing: None,

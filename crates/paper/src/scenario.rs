@@ -7,7 +7,7 @@ use config::{Config, ConfigError, ConfigErrors, Table};
 use interface::Command;
 use nalgebra::Vector2;
 
-use crate::{LeanAt, PaperLean};
+use crate::{FileText, LeanAt, PaperLean};
 
 /// What the paper did, and what it saw.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,6 +64,14 @@ impl Scenario {
     /// # Errors
     /// The folder cannot be read or has no scenario, or every mistake in every file.
     pub fn load_all(folder: &Path) -> Result<Vec<Self>, ConfigErrors> {
+        Self::read_all(&Self::texts_in(folder)?)
+    }
+
+    /// The text of every `figure_*.toml` of a folder, in the order of their names.
+    ///
+    /// # Errors
+    /// The folder or a file cannot be read, or there is no such file.
+    pub fn texts_in(folder: &Path) -> Result<Vec<FileText>, ConfigErrors> {
         let of_folder = |message: String| ConfigErrors(vec![of_folder(folder, message)]);
         let entries = fs::read_dir(folder).map_err(|error| of_folder(error.to_string()))?;
         let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
@@ -72,16 +80,30 @@ impl Scenario {
         if files.is_empty() {
             return Err(of_folder("holds no scenario; they are named figure_04.toml and so on".to_owned()));
         }
-        let (mut scenarios, mut errors) = (Vec::new(), Vec::new());
-        for file in &files {
-            match Self::load(file) {
-                Ok(scenario) => scenarios.push(scenario),
-                Err(wrong) => errors.extend(wrong.0),
-            }
-        }
-        scenarios.sort_by_key(|scenario| scenario.figure);
-        if errors.is_empty() { Ok(scenarios) } else { Err(ConfigErrors(errors)) }
+        all_of(files.iter().map(|file| FileText::load(file)))
     }
+
+    /// Reads the texts of scenarios' files, and sorts them by the figures' numbers.
+    ///
+    /// # Errors
+    /// Every mistake in every text.
+    pub fn read_all(texts: &[FileText]) -> Result<Vec<Self>, ConfigErrors> {
+        let mut scenarios = all_of(texts.iter().map(|file| Self::from_toml(&file.text, &file.name)))?;
+        scenarios.sort_by_key(|scenario| scenario.figure);
+        Ok(scenarios)
+    }
+}
+
+/// All values, or all errors.
+fn all_of<T>(results: impl Iterator<Item = Result<T, ConfigErrors>>) -> Result<Vec<T>, ConfigErrors> {
+    let (mut values, mut errors) = (Vec::new(), Vec::new());
+    for result in results {
+        match result {
+            Ok(value) => values.push(value),
+            Err(wrong) => errors.extend(wrong.0),
+        }
+    }
+    if errors.is_empty() { Ok(values) } else { Err(ConfigErrors(errors)) }
 }
 
 /// The file's name carries the figure's number.

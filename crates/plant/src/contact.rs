@@ -107,7 +107,7 @@ impl ContactParameters {
             damping: table.number("damping_n_s_per_m").between(0.0, 1e6),
             stiffness_tangential: table.number("stiffness_tangential_n_per_m").between(1e3, 1e8),
             damping_tangential: table.number("damping_tangential_n_s_per_m").between(0.0, 1e6),
-            friction: table.number("friction").between(0.0, 10.0),
+            friction: table.number("friction").between(0.01, 10.0),
         }
     }
 

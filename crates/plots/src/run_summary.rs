@@ -13,7 +13,7 @@ pub struct RunSummary {
     pub duration_s: f64,
     /// What the controller was doing at the end; `None` if it recorded nothing.
     pub mode: Option<&'static str>,
-    /// When and why the robot stood because of a fault; absent in JSON if it never did.
+    /// When and by which fault the robot was stopped; absent in JSON if it never was.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub faulted: Option<FaultedSince>,
     /// Distance, heading, margin, falls and loads.
@@ -40,7 +40,7 @@ impl RunSummary {
             .map(|Fall { time_s, half_step, .. }| format!("fell at {time_s:.2} s in half-step {half_step}"));
         let faulted = self.faulted.as_ref().map(|FaultedSince { time_s, faults }| {
             let faults = if faults.is_empty() { "a latched fault".to_owned() } else { faults.join("; ") };
-            format!("stood from {time_s:.2} s on because of a fault: {faults}")
+            format!("stopped at {time_s:.2} s by a fault: {faults}")
         });
         let mode = self.mode.filter(|mode| ![Mode::Fallen, Mode::Faulted].map(Mode::text).contains(mode));
         let mode = mode.map(|mode| format!("{mode} at the end"));
@@ -135,7 +135,7 @@ mod tests {
         log.controller.iter().for_each(|row| log.totals.note_controller(row));
         assert_eq!(
             RunSummary::of(&log, &mechanism).outcome(),
-            "stood from 2.00 s on because of a fault: no valid measurement has arrived for too long"
+            "stopped at 2.00 s by a fault: no valid measurement has arrived for too long"
         );
     }
 }

@@ -3,6 +3,7 @@
 use std::fmt::{Debug, Display, Write};
 
 use interface::{Capturability, Fault, Intent, Lifetime, Mode, PushOutcome, Reason, SensorGroup, Source, Verdict};
+use model::Joint;
 
 use crate::{Layout, NumberType, PROTOCOL, layouts};
 
@@ -33,6 +34,7 @@ pub fn python_messages() -> String {
     text.push_str(&codes("Fault", "IntFlag", Fault::ALL, Fault::code));
     text.push_str(&codes("PushOutcome", "IntEnum", PushOutcome::ALL, PushOutcome::code));
     text.push_str(&codes("SensorGroup", "IntFlag", SensorGroup::ALL, SensorGroup::code));
+    text.push_str(&joints());
     for layout in layouts() {
         text.push_str(&class(&layout));
     }
@@ -44,6 +46,15 @@ fn codes<T: Debug + Display + Copy>(name: &str, kind: &str, all: &[T], code: imp
     let mut text = format!("\n\nclass {name}({kind}):\n");
     for variant in all {
         let _ = writeln!(text, "    {} = {}  # {variant}", constant_name(&format!("{variant:?}")), code(*variant));
+    }
+    text
+}
+
+/// Writes the joints with their places in the arrays of messages.
+fn joints() -> String {
+    let mut text = "\n\nclass Joint(IntEnum):\n    \"\"\"Place of a joint in an array of joints.\"\"\"\n\n".to_owned();
+    for joint in Joint::ALL {
+        let _ = writeln!(text, "    {} = {}  # joint {}", joint.name().to_uppercase(), joint.index(), joint.number());
     }
     text
 }

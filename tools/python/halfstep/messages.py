@@ -136,6 +136,31 @@ class SensorGroup(IntFlag):
     LEFT_FOOT = 32  # force sensor of the left foot
 
 
+class Joint(IntEnum):
+    """Place of a joint in an array of joints."""
+
+    FOOT_ROLL = 0  # joint 1
+    FOOT_PITCH = 1  # joint 2
+    RIGHT_ANKLE_ROLL = 2  # joint 3
+    RIGHT_ANKLE_PITCH = 3  # joint 4
+    RIGHT_KNEE = 4  # joint 5
+    RIGHT_HIP_PITCH = 5  # joint 6
+    RIGHT_HIP_YAW = 6  # joint 7
+    RIGHT_HIP_ROLL = 7  # joint 8
+    LEFT_HIP_ROLL = 8  # joint 9
+    LEFT_HIP_YAW = 9  # joint 10
+    LEFT_HIP_PITCH = 10  # joint 11
+    LEFT_KNEE = 11  # joint 12
+    LEFT_ANKLE_PITCH = 12  # joint 13
+    LEFT_ANKLE_ROLL = 13  # joint 14
+    WAIST_PITCH = 14  # joint 15
+    WAIST_ROLL = 15  # joint 16
+    RIGHT_SHOULDER = 16  # joint 17
+    RIGHT_ELBOW = 17  # joint 18
+    LEFT_SHOULDER = 18  # joint 19
+    LEFT_ELBOW = 19  # joint 20
+
+
 class Setpoint(Message):
     """`halfstep.Setpoint.v1`, 496 bytes."""
 

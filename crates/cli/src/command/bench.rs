@@ -11,7 +11,7 @@ use ::bench::exchange::{ExchangeOptions, answer, exchange};
 use ::bench::jitter::{JitterOptions, jitter};
 use ::bench::observed_jitter::{Commands, ObservedJitterOptions, observed_jitter};
 use ::bench::page::bench_page;
-use ::bench::{BenchError, BenchReport};
+use ::bench::{BenchError, BenchReport, RatioVerdict};
 use clap::Subcommand;
 use gait::Robot;
 use node::configuration::Errors;
@@ -35,15 +35,19 @@ use crate::work_progress::WorkProgress;
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "A time says something about the machine; the verdict is a ratio of two numbers of one run. \
 Nothing else should run meanwhile.")]
+#[command(mut_args(anywhere))]
 pub(super) struct BenchArgs {
     #[command(flatten)]
     config: ConfigOptions,
     /// Also write bench.html, with histograms, and bench.json into this folder
-    #[arg(long, value_name = "DIR", global = true)]
+    #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Replace an earlier benchmark in the folder
-    #[arg(long, global = true)]
+    #[arg(long)]
     force: bool,
+    /// End with exit code 1 if a ratio misses its bound
+    #[arg(long)]
+    strict: bool,
     #[command(subcommand)]
     what: What,
 }
@@ -105,6 +109,11 @@ const FLAT_OUT: u64 = 20_000;
 /// Names of the files in the folder.
 const FILES: [&str; 2] = ["bench.html", "bench.json"];
 
+/// Permits an option behind the benchmark's name, too.
+fn anywhere(option: clap::Arg) -> clap::Arg {
+    option.global(true)
+}
+
 impl BenchArgs {
     pub(super) fn run(mut self, json: bool) -> Result<Status, CliError> {
         self.config.resolve()?;
@@ -122,7 +131,10 @@ impl BenchArgs {
         };
         // What took minutes is printed also if it cannot be written any more.
         print(json, &report)?;
-        let Some(folder) = &out else { return Ok(Status::Success) };
+        // On a busy machine a ratio that does not pass is no failure.
+        let is_missed = report.ratios.iter().any(|ratio| ratio.verdict() == RatioVerdict::Missed);
+        let status = Status::success_if(!(self.strict && is_missed));
+        let Some(folder) = &out else { return Ok(status) };
         let text = serde_json::to_string_pretty(&report).map_err(CliError::new)? + "\n";
         let [page_file, json_file] = FILES;
         if let Err(error) = folder.write(&[(page_file, bench_page(&report)), (json_file, text)]) {
@@ -132,8 +144,7 @@ impl BenchArgs {
         if !json {
             print_line(format_args!("written to {}", folder.join(page_file).display()))?;
         }
-        // A ratio that does not pass is reported; on a busy machine that is no failure.
-        Ok(Status::Success)
+        Ok(status)
     }
 
     fn compute(&self, rounds: u32, slice: Duration) -> Result<BenchReport, CliError> {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use controller::Driver;
 use dialogue::reply_text::reply_text;
-use interface::{Mode, Rate};
+use interface::Rate;
 use node::admission_worker::ClockedWorker;
 use node::announcements::{Announced, Announcements};
 use node::configuration::{self, CONTROLLER, ConfigFiles, Errors};
@@ -99,7 +99,7 @@ impl ControllerArgs {
             ticks: run.ticks,
             half_steps: run.half_steps,
             mode: run.mode.map_or(String::new(), |mode| mode.text().to_owned()),
-            fault: run.fault.map(FaultSummary::from),
+            fault: run.fault.map(|latched| FaultSummary::new(&latched, run.fault_cleared)),
             requests,
             deadline_misses: run.missed,
             timing: (clock == Clock::Realtime).then_some(run.timing),
@@ -109,7 +109,7 @@ impl ControllerArgs {
         };
         print(json, &summary)?;
         let is_recorded = summary.record_error.is_none();
-        Ok(Status::success_if(!matches!(run.mode, Some(Mode::Fallen | Mode::Faulted)) && is_recorded))
+        Ok(Status::success_if(!run.is_faulted() && is_recorded))
     }
 
     /// Where to record to, if anywhere, and what the run begins with.

@@ -6,12 +6,13 @@ use clap::Subcommand;
 use config::Config;
 use interchange::mjcf::mjcf_text;
 use interchange::urdf::urdf_text;
-use model::Mechanism;
 use node::configuration::Errors;
 use node::realtime::RealtimeParameters;
+use plant::PlantParameters;
 use serde::Serialize;
 use wire::python::python_messages;
 
+use super::config_options::ConfigOptions;
 use crate::error::CliError;
 use crate::output::{print_json, print_line};
 use crate::output_folder::OutputFolder;
@@ -28,23 +29,21 @@ pub(super) struct ExportArgs {
 enum Format {
     /// The robot as URDF
     Urdf {
-        /// Robot description
-        #[arg(long, value_name = "FILE", default_value = "config/mechanism.toml")]
-        mechanism: PathBuf,
+        #[command(flatten)]
+        config: ConfigOptions,
         #[command(flatten)]
         to: ExportFile,
     },
     /// The robot as MJCF for MuJoCo, with floor and torque motors
     Mjcf {
-        /// Robot description
-        #[arg(long, value_name = "FILE", default_value = "config/mechanism.toml")]
-        mechanism: PathBuf,
-        /// Friction, slope, payload and integration step
-        #[arg(long, value_name = "FILE", default_value = "config/plant.toml")]
-        plant: PathBuf,
-        /// Real-time parameters; they set the control rate
-        #[arg(long, value_name = "FILE", default_value = "config/realtime.toml")]
-        realtime: PathBuf,
+        #[command(flatten)]
+        config: ConfigOptions,
+        /// Friction, slope, payload and integration step [default: plant.toml of the folder]
+        #[arg(long, value_name = "FILE")]
+        plant: Option<PathBuf>,
+        /// Real-time parameters, which set the control rate [default: realtime.toml of the folder]
+        #[arg(long, value_name = "FILE")]
+        realtime: Option<PathBuf>,
         #[command(flatten)]
         to: ExportFile,
     },
@@ -78,15 +77,24 @@ struct Exported {
 impl ExportArgs {
     pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
         let (text, ExportFile { out, force }) = match self.format {
-            Format::Urdf { mechanism, to } => {
-                let mechanism = Mechanism::load(&mechanism).map_err(CliError::bad_input)?;
-                (urdf_text(&mechanism).map_err(CliError::new)?, to)
-            }
-            Format::Mjcf { mechanism, plant, realtime, to } => {
+            Format::Urdf { mut config, to } => {
+                config.resolve()?;
                 let mut errors = Errors::default();
-                let mechanism = errors.note(Mechanism::load(&mechanism));
-                let parameters = errors.note(plant::PlantParameters::load(&plant));
-                let realtime = errors.note(RealtimeParameters::load(&realtime));
+                let mechanism = config.files().mechanism(&mut errors);
+                (urdf_text(&errors.finish(mechanism)?).map_err(CliError::new)?, to)
+            }
+            Format::Mjcf { mut config, plant, realtime, to } => {
+                config.resolve()?;
+                let (mut errors, files) = (Errors::default(), config.files());
+                let mechanism = files.mechanism(&mut errors);
+                let parameters = match plant {
+                    Some(file) => errors.note(PlantParameters::load(&file)),
+                    None => files.plant(&mut errors),
+                };
+                let realtime = match realtime {
+                    Some(file) => errors.note(RealtimeParameters::load(&file)),
+                    None => files.realtime(&mut errors),
+                };
                 let ((mechanism, parameters), realtime) = errors.finish(mechanism.zip(parameters).zip(realtime))?;
                 (mjcf_text(&mechanism, &parameters, realtime.rate.period_s()), to)
             }

@@ -13,6 +13,7 @@ mod export;
 mod import;
 mod options;
 mod paper;
+mod paper_files;
 mod paper_search;
 mod plant;
 mod plot;

@@ -9,6 +9,7 @@ use gait::{RampKind, Robot};
 use node::configuration::Errors;
 
 use super::config_options::ConfigOptions;
+use super::paper_files::PaperFiles;
 use super::paper_search::SearchArgs;
 use crate::error::CliError;
 use crate::output::{print_json, print_line};
@@ -48,20 +49,21 @@ impl PaperArgs {
         let mut errors = Errors::default();
         let files = self.config.files();
         let robot = files.robot(&mut errors);
-        let reading = errors.note(Reading::load(files.folder.join("paper.toml")));
-        let folder = files.folder.join("scenarios");
-        let mut scenarios = errors.note(Scenario::load_all(&folder)).unwrap_or_default();
+        let texts = errors.note(PaperFiles::of(&files.folder));
+        let reading =
+            texts.as_ref().and_then(|texts| errors.note(Reading::from_toml(&texts.reading.text, &texts.reading.name)));
+        let scenarios = texts.as_ref().and_then(|texts| errors.note(Scenario::read_all(&texts.scenarios)));
+        let mut scenarios = scenarios.unwrap_or_default();
         if let Some(number) = self.figure {
             let numbers: Vec<String> = scenarios.iter().map(|scenario| scenario.figure.to_string()).collect();
             scenarios.retain(|scenario| scenario.figure == number);
             if scenarios.is_empty() {
-                let there = numbers.join(", ");
-                errors.0.push(format!("--figure {number}: {} has the figures {there}", folder.display()));
+                errors.0.push(format!("--figure {number}: there are the figures {}", numbers.join(", ")));
             }
         }
-        let (robot, reading) = errors.finish(robot.zip(reading))?;
+        let ((robot, reading), texts) = errors.finish(robot.zip(reading).zip(texts))?;
         if self.search.search {
-            return self.search.run(&files, (&robot, reading), scenarios, self.out.as_deref(), json);
+            return self.search.run(&files, texts, (&robot, reading), scenarios, self.out.as_deref(), json);
         }
         let reading = Reading {
             turn: self.turn_ramp.unwrap_or(reading.turn),

@@ -11,17 +11,14 @@ use gait::Robot;
 use indicatif::{ProgressBar, ProgressStyle};
 use node::configuration::ConfigFiles;
 
+use super::paper_files::{PaperFiles, SCENARIOS};
 use crate::error::CliError;
 use crate::output::{print_json, print_line, quoted};
 use crate::output_folder::OutputFolder;
 use crate::status::Status;
 
-/// Names of the files with other readings of the axes, where the folder has them.
-const OTHER_READINGS: [&str; 1] = ["mechanism_other_reading.toml"];
 /// Files that the found configuration has from the folder, where there are such.
 const COPIED: [&str; 3] = ["controller.toml", "plant.toml", "realtime.toml"];
-/// Folder of the scenarios.
-const SCENARIOS: &str = "scenarios";
 
 /// How to search.
 #[derive(Clone, Debug, clap::Args)]
@@ -47,6 +44,7 @@ impl SearchArgs {
     pub(super) fn run(
         &self,
         files: &ConfigFiles,
+        texts: PaperFiles,
         (robot, reading): (&Robot, Reading),
         scenarios: Vec<Scenario>,
         out: Option<&Path>,
@@ -55,11 +53,8 @@ impl SearchArgs {
         out.map_or(Ok(()), check_is_new)?;
         // Whether it can be written is known before the search.
         out.map(|out| OutputFolder::open(out, false)).transpose()?;
-        let others = OTHER_READINGS.map(|name| files.folder.join(name));
-        let others = others.into_iter().filter(|file| file.exists());
-        let mechanisms = [files.mechanism_file()].into_iter().chain(others).map(|file| text_of(&file));
-        let mechanisms = mechanisms.collect::<Result<_, _>>()?;
-        let reading_text = text_of(&files.folder.join("paper.toml"))?.text;
+        let PaperFiles { reading: FileText { text: reading_text, .. }, scenarios: scenario_texts, other_axes } = texts;
+        let mechanisms = [text_of(&files.mechanism_file())?].into_iter().chain(other_axes).collect();
         let base = SearchBase::new(mechanisms, robot, reading, reading_text, scenarios).map_err(CliError::bad_input)?;
 
         let options = SearchOptions {
@@ -76,8 +71,7 @@ impl SearchArgs {
         let (candidate, report) = found.map_err(CliError::bad_input)?;
 
         if let Some(out) = out {
-            let found = scenario_texts(&files.folder)
-                .and_then(|texts| base.files(&candidate, &texts).map_err(CliError::bad_input))?;
+            let found = base.files(&candidate, &scenario_texts).map_err(CliError::bad_input)?;
             write(&found, &files.folder, out)?;
         }
         if json {
@@ -119,18 +113,7 @@ fn check_is_new(out: &Path) -> Result<(), CliError> {
 }
 
 fn text_of(file: &Path) -> Result<FileText, CliError> {
-    let text = config::read_text(file).map_err(CliError::bad_input)?;
-    Ok(FileText { name: file.display().to_string(), text })
-}
-
-/// The scenarios' files of a folder, by their names in it.
-fn scenario_texts(folder: &Path) -> Result<Vec<FileText>, CliError> {
-    let folder = folder.join(SCENARIOS);
-    let entries = fs::read_dir(&folder).map_err(CliError::file(&folder))?;
-    let mut names: Vec<String> = entries.flatten().filter_map(|entry| entry.file_name().into_string().ok()).collect();
-    names.retain(|name| name.starts_with("figure_") && name.ends_with(".toml"));
-    names.sort();
-    names.into_iter().map(|name| Ok(FileText { text: text_of(&folder.join(&name))?.text, name })).collect()
+    FileText::load(file).map_err(CliError::bad_input)
 }
 
 /// Writes the found configuration, with what it has from the folder.
@@ -147,6 +130,8 @@ fn write(found: &FoundFiles, folder: &Path, out: &Path) -> Result<(), CliError> 
         }
     }
     OutputFolder::open(out, false)?.write(&files)?;
-    let scenarios: Vec<_> = found.scenarios.iter().map(|file| (file.name.as_str(), file.text.clone())).collect();
+    let in_folder =
+        |file: &FileText| Some((Path::new(&file.name).file_name()?.to_str()?.to_owned(), file.text.clone()));
+    let scenarios: Vec<_> = found.scenarios.iter().filter_map(in_folder).collect();
     OutputFolder::open(&out.join(SCENARIOS), false)?.write(&scenarios)
 }

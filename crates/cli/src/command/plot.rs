@@ -35,7 +35,7 @@ pub(super) struct PlotArgs {
     /// Output folder [default: the folder of the recording]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Also write plant.csv and controller.csv
+    /// Also write plant.csv, controller.csv and drives.csv
     #[arg(long)]
     csv: bool,
     /// Replace other pictures and tables in the folder
@@ -101,7 +101,7 @@ impl PlotArgs {
         out.write(&files)?;
         let mut files: Vec<String> = files.into_iter().map(|(name, _)| name.to_owned()).collect();
         if self.csv {
-            files.extend(out.write_with(|folder| Ok(write_csv(&self.run, folder)?.to_vec()))?);
+            files.extend(out.write_with(|folder| Ok(write_csv(&self.run, folder, Some(mechanism))?.to_vec()))?);
         }
         let folder = self.folder();
         print(json, &PlotFiles { folder, files, missing: pictures.missing, summary: summary.clone() })?;

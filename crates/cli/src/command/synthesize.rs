@@ -111,6 +111,12 @@ struct SynthesisJson {
 
 impl SynthesizeArgs {
     pub(super) fn run(self, json: bool) -> Result<Status, CliError> {
+        if !self.mechanism.exists() {
+            let file = self.mechanism.display();
+            return Err(CliError::bad_input(format!(
+                "{file}: does not exist; name the robot's file with --mechanism and the half-step's with --out"
+            )));
+        }
         let mechanism = Mechanism::load(&self.mechanism).map_err(CliError::bad_input)?;
         let pattern = match &self.recorded {
             None => LegPattern::Pendulum,

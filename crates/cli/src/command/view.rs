@@ -7,6 +7,7 @@ use std::time::Duration;
 use config::Config;
 use model::Mechanism;
 use node::configuration::Errors;
+use node::cycle::Clock;
 use node::interrupt::Interrupt;
 use node::tell::tell;
 use robots::ROBOTS;
@@ -91,8 +92,12 @@ impl ViewArgs {
         let mut config = self.config.clone();
         config.resolve()?;
         let mut errors = Errors::default();
-        let robot = config.files().mechanism(&mut errors);
-        let mut robots = vec![errors.finish(robot)?];
+        let files = config.files();
+        let loaded = files.mechanism(&mut errors).zip(files.realtime(&mut errors));
+        let (robot, realtime) = errors.finish(loaded)?;
+        // The robot's clock may be either; in lockstep nothing waits for this process.
+        realtime.keep_off_the_loop(Clock::Realtime);
+        let mut robots = vec![robot];
         for robot in ROBOTS {
             robots.push(Mechanism::from_toml(robot.mechanism_text(), robot.name).map_err(CliError::bad_input)?);
         }

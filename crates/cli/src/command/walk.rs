@@ -130,7 +130,7 @@ impl WalkArgs {
 
         let summary = self.conclude(&robot, rate, &instance, &folder, &controller, &plant)?;
         print(json, &SummaryInFolder { folder: &folder, summary: &summary })?;
-        let walked = summary.measures.falls == 0 && summary.fault.is_none();
+        let walked = summary.measures.falls == 0 && !summary.is_faulted();
         Ok(Status::success_if(walked && summary.problems.is_empty()))
     }
 

@@ -1,6 +1,6 @@
 //! The walk to a destination: it is corrected by odometry, and reported.
 
-use interface::{DestinationProgress, Intent};
+use interface::{DestinationProgress, Intent, Source};
 use pattern::{GaitState, Stance};
 
 use super::Controller;
@@ -24,6 +24,14 @@ impl Controller {
                 self.state.set_intent(if parallel { Intent::Stop } else { Intent::Hold });
             }
         }
+    }
+
+    /// Whether the robot walks to a destination of a source that outranks this one: that ends by itself in a stand,
+    /// whatever becomes of this source's stream.
+    pub(super) fn walks_for_a_superior_of(&self, source: Source) -> bool {
+        let Pattern::Planned(generator) = &self.pattern else { return false };
+        generator.destination().is_some()
+            && self.destination_source.is_some_and(|sender| self.arbiter.outranks(sender, source))
     }
 
     /// How far the walk to a destination has come, if there is one.

@@ -116,8 +116,12 @@ impl Controller {
             } else {
                 generator.adopt(plan);
                 self.state.set_intent(job.intent().unwrap_or(self.state.intent()));
+                if job.is_to_destination() {
+                    self.destination_source = self.admission.waiting();
+                }
             }
-            self.admission.reply(decision.reply(self.state.intent()));
+            let authority = self.admission.waiting().and_then(|source| self.arbiter.other_in_control(source));
+            self.admission.reply(Reply { authority, ..decision.reply(self.state.intent()) });
         }
         self.admission.finish(job, None);
     }

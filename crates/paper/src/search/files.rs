@@ -1,6 +1,8 @@
 //! Texts of the files that a search reads and writes.
 
-use config::Config;
+use std::path::Path;
+
+use config::{Config, ConfigErrors};
 use model::{Joint, Mechanism};
 
 use super::error::SearchError;
@@ -13,6 +15,16 @@ pub struct FileText {
     pub name: String,
     /// Its text.
     pub text: String,
+}
+
+impl FileText {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// It cannot be read, or is too long.
+    pub fn load(file: &Path) -> Result<Self, ConfigErrors> {
+        Ok(Self { name: file.display().to_string(), text: config::read_text(file)? })
+    }
 }
 
 /// A mechanism with the text of its file.

@@ -16,6 +16,11 @@ pub(super) fn joints<S: Serializer>(values: &JointVector, serializer: S) -> Resu
     values.0.serialize(serializer)
 }
 
+/// Values of the joints, one column each, empty where there is none.
+pub(super) fn known_joints<S: Serializer>(values: &JointVector, serializer: S) -> Result<S::Ok, S::Error> {
+    values.0.map(|value| Some(value).filter(|value| value.is_finite())).serialize(serializer)
+}
+
 /// A vector as x, y, z.
 pub(super) fn vector<S: Serializer>(vector: &Vector3<f64>, serializer: S) -> Result<S::Ok, S::Error> {
     <[f64; 3]>::from(*vector).serialize(serializer)

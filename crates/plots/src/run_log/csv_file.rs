@@ -3,8 +3,10 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
+use model::Mechanism;
+
 use super::each_row::{RunRow, each_row};
-use super::{ControllerRow, CsvRow, PlantRow};
+use super::{ControllerRow, CsvRow, DriveRow, PlantRow};
 
 /// Why a CSV file could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -22,19 +24,20 @@ pub enum CsvError {
     Recording(#[from] record::RecordError),
 }
 
-/// Writes every row of a run, however long it is, into the CSV files of plant and controller in the folder `dir`, and
-/// returns their paths.
+/// Writes every row of a run, however long it is, into the CSV files of plant, controller and drives in the folder
+/// `dir`, and returns their paths. Drives have no rows without the mechanism that they belong to.
 ///
 /// # Errors
 /// The run cannot be read, or a file cannot be written.
-pub fn write_csv(run: &Path, dir: &Path) -> Result<[PathBuf; 2], CsvError> {
+pub fn write_csv(run: &Path, dir: &Path, mechanism: Option<&Mechanism>) -> Result<[PathBuf; 3], CsvError> {
     let (mut plant, mut controller) = (CsvFile::create::<PlantRow>(dir)?, CsvFile::create::<ControllerRow>(dir)?);
-    each_row(run, None, None, |row| match row {
+    let mut drives = CsvFile::create::<DriveRow>(dir)?;
+    each_row(run, mechanism, None, |row| match row {
         RunRow::Plant(row) => plant.write(&row),
         RunRow::Controller(row) => controller.write(&row),
-        RunRow::Drives(_) => {}
+        RunRow::Drives(row) => drives.write(&row),
     })?;
-    Ok([plant.finish()?, controller.finish()?])
+    Ok([plant.finish()?, controller.finish()?, drives.finish()?])
 }
 
 /// A CSV file that is being written, until the first failure.
@@ -89,14 +92,19 @@ mod tests {
         }
         let plant = written(dir.path(), &log.plant);
         let controller = written(dir.path(), &log.controller);
+        let drive_rows = [synthetic::drives_at(0.5, &synthetic::mechanism(), |_| 2.0)];
+        let drives = written(dir.path(), &drive_rows);
         for (file, columns, rows) in [
             (&plant, PlantRow::columns(), log.plant.len()),
             (&controller, ControllerRow::columns(), log.controller.len()),
+            (&drives, DriveRow::columns(), drive_rows.len()),
         ] {
             let text = fs::read_to_string(file).unwrap();
             assert_eq!(text.lines().count(), rows + 1);
             assert!(text.lines().all(|line| line.split(',').count() == columns.len()), "{text}");
         }
         assert!(fs::read_to_string(plant).unwrap().contains(",joint_03_angle_rad,"));
+        let drives = fs::read_to_string(drives).unwrap();
+        assert!(drives.contains(",joint_05_torque_n_m,") && !drives.contains("NaN"), "{drives}");
     }
 }

@@ -1,25 +1,34 @@
 //! What the drives were to do at a tick, and what they did.
 
 use model::{Joint, JointVector, Mechanism, Motor, PerJoint};
+use serde::Serialize;
 use wire::{MeasurementMessage, SetpointMessage};
 
+use super::{CsvRow, columns};
+
 /// Setpoint and measurement of all joints at one tick; NaN where a value is missing, or absurd.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DriveRow {
     /// Time since the start of the run (s).
     pub time: f64,
     /// Angles that were to be reached by this tick: those of the setpoint before (rad).
+    #[serde(serialize_with = "columns::known_joints")]
     pub asked_angles: JointVector,
     /// Torques that the motion was expected to need, likewise (N·m).
+    #[serde(serialize_with = "columns::known_joints")]
     pub expected_torques: JointVector,
     /// Measured angles (rad).
+    #[serde(serialize_with = "columns::known_joints")]
     pub angles: JointVector,
     /// Measured rates (rad/s).
+    #[serde(serialize_with = "columns::known_joints")]
     pub rates: JointVector,
     /// Torques of the motors at the joints (N·m). Those of DC motors follow from the current; those of other drives are
     /// what their servos are made to yield, within their effort.
+    #[serde(serialize_with = "columns::known_joints")]
     pub torques: JointVector,
     /// Measured currents of DC motors (A).
+    #[serde(serialize_with = "columns::known_joints")]
     pub currents: JointVector,
 }
 
@@ -60,6 +69,17 @@ impl DriveRow {
             if is_dc { all_currents[joint] } else { f64::NAN }
         });
         Self { time, asked_angles, expected_torques, angles, rates, torques, currents }
+    }
+}
+
+impl CsvRow for DriveRow {
+    const FILE: &str = "drives.csv";
+
+    fn columns() -> Vec<String> {
+        let quantities =
+            ["asked_angle_rad", "expected_torque_n_m", "angle_rad", "rate_rad_s", "torque_n_m", "current_a"];
+        let of_joints = |quantity| Joint::ALL.map(|joint| format!("joint_{:02}_{quantity}", joint.number()));
+        std::iter::once("t_s".to_owned()).chain(quantities.into_iter().flat_map(of_joints)).collect()
     }
 }
 

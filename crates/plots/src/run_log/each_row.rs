@@ -4,10 +4,14 @@ use std::path::Path;
 
 use model::Mechanism;
 use record::{RecordError, Recording, RunEvent, TickMessage, files_of};
+use wire::MeasurementMessage;
 
 use super::estimate::Estimator;
 use super::rows::{ControllerRow, PlantRow};
 use super::{DriveRow, from_recording};
+
+/// How long a measurement counts if no other one follows (s): a few periods of the slowest loop.
+const STALE_AFTER: f64 = 0.02;
 
 /// A row of the plant, of the controller, or of the drives.
 // Rows are passed on one at a time: boxing the large ones would only cost time.
@@ -34,6 +38,7 @@ pub(super) fn each_row(
     for file in files_of(run)? {
         let mut recording = Recording::open(&file)?;
         let (mut tick, mut asked, mut measured) = (TickMessage::default(), None, None);
+        let mut heard = None;
         while let Some(stamped) = recording.next_event()? {
             match stamped.event {
                 RunEvent::Tick(message) => tick = message,
@@ -44,17 +49,22 @@ pub(super) fn each_row(
                             take(RunRow::Plant(estimator.row(stamped.time(), tick.tick, &report, measured)));
                         }
                         let timing = message.timing();
-                        take(RunRow::Controller(from_recording::of_controller(
-                            stamped.time(),
-                            &tick,
-                            &timing,
-                            &report,
-                        )));
+                        let mut row = from_recording::of_controller(stamped.time(), &tick, &timing, &report);
+                        // The report repeats what was measured last: of a robot that is gone, too.
+                        if heard.is_some_and(|heard| row.time - heard > STALE_AFTER) {
+                            (row.zmp_measured, row.margin, row.com_measured) = (None, None, None);
+                        }
+                        take(RunRow::Controller(row));
                     }
                 }
                 // It responds to the setpoint before.
                 RunEvent::Measurement(message) => {
+                    let is_new = measured.is_none_or(|before: MeasurementMessage| before.tick != message.tick);
                     measured = Some(message);
+                    if !is_new {
+                        continue;
+                    }
+                    heard = Some(stamped.time());
                     if let Some((mechanism, asked)) = mechanism.zip(asked.as_ref()) {
                         take(RunRow::Drives(DriveRow::new(stamped.time(), mechanism, asked, &message)));
                     }

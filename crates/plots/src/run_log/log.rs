@@ -72,7 +72,10 @@ impl RunLog {
         let mut survey = Survey::in_detail(window);
         let (mut drawable, mut totals) = (Drawable::default(), RunTotals::default());
         let notes = each_row(run, mechanism, estimator, |row| match drawable.filter(row) {
-            Some(RunRow::Plant(row)) => survey.note_plant(&row),
+            Some(RunRow::Plant(row)) => {
+                survey.note_plant(&row);
+                totals.note_plant(&row);
+            }
             Some(RunRow::Controller(row)) => {
                 survey.note_controller(&row);
                 totals.note_controller(&row);
@@ -222,7 +225,7 @@ mod tests {
                 assert!(!svg.contains("NaN") && !svg.contains("inf\""), "{file}");
                 assert!(svg.len() < 4 << 20, "{file} has {} bytes", svg.len());
             }
-            write_csv(&file, folder.path()).unwrap();
+            write_csv(&file, folder.path(), Some(&mechanism)).unwrap();
         }
     }
 

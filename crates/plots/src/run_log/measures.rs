@@ -47,11 +47,12 @@ impl RunLog {
     /// Computes the measures of the run.
     pub fn measures(&self, mechanism: &Mechanism) -> Measures {
         let prints = self.footprints(mechanism);
-        let done = self.controller.first().zip(self.controller.last());
+        // A reset after a fall begins to count anew.
+        let done = self.controller.windows(2).map(|rows| rows[1].half_step.saturating_sub(rows[0].half_step));
         let distance_m = distance(&prints);
         let (least_margin, drives) = (self.least_margin(), &self.totals.drives);
         Measures {
-            half_steps: done.map_or(0, |(first, last)| last.half_step.saturating_sub(first.half_step)),
+            half_steps: done.sum(),
             distance_m,
             estimated: self.estimated_end(),
             truth: if self.is_estimated { None } else { self.true_end(mechanism, heading_change(&prints)) },

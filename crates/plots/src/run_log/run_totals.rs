@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::DriveRow;
 use super::drive_account::DriveAccount;
-use super::rows::ControllerRow;
+use super::rows::{ControllerRow, PlantRow};
 use super::zmp_error::ZmpErrorSum;
 
 /// Sums and peaks over all rows of a run.
@@ -15,9 +15,13 @@ pub struct RunTotals {
     pub(super) drives: DriveAccount,
     pub(super) zmp_error: ZmpErrorSum,
     pub(crate) faulted: Option<FaultedSince>,
+    /// Whether the robot lies on the ground in the newest row of the plant.
+    is_down: bool,
+    /// Whether nothing balances the robot any more, as the newest row of the controller says.
+    is_given_up: bool,
 }
 
-/// When the controller first stood because of a fault.
+/// When a fault first stopped the robot.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FaultedSince {
     /// When (s).
@@ -29,7 +33,10 @@ pub struct FaultedSince {
 impl RunTotals {
     pub(crate) fn note_controller(&mut self, row: &ControllerRow) {
         self.zmp_error.add(row);
-        if self.faulted.is_none() && row.mode == Mode::Faulted.text() {
+        self.is_given_up = !row.is_balancing();
+        // Without measurements the robot is stopped: it stands a moment later.
+        let is_stopped = row.mode == Mode::Faulted.text() || Faults(row.faults).contains(Fault::MeasurementStale);
+        if self.faulted.is_none() && is_stopped {
             // A missed deadline alone stops nothing.
             let faults = Faults(row.faults).iter().filter(|fault| *fault != Fault::DeadlineMissed);
             let faults = faults.map(|fault| fault.to_string()).collect();
@@ -37,7 +44,14 @@ impl RunTotals {
         }
     }
 
+    pub(super) fn note_plant(&mut self, row: &PlantRow) {
+        self.is_down = row.fallen;
+    }
+
+    /// Adds a row of the drives, unless the robot has fallen or a fault has stopped it.
     pub(super) fn note_drives(&mut self, mechanism: &Mechanism, row: &DriveRow) {
-        self.drives.add(mechanism, row);
+        if !self.is_down && !self.is_given_up {
+            self.drives.add(mechanism, row);
+        }
     }
 }
