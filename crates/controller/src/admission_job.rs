@@ -4,13 +4,10 @@
 //! The controller opens it with a copy of its pattern generator. The driver takes it, evaluates it (at once in
 //! lockstep, on another thread in real time) and completes it. That takes milliseconds and allocates nothing.
 
-use interface::{
-    ActiveLimit, Command, GaitChange, Intent, Objection, Places, Reason, Request, SteadyWalk, Verdict, WalkVelocity,
-};
-use pattern::{
-    Departure, Feasibility, FeasibilityCheck, Gait, GaitState, Limit, LimitViolation, Pace, PatternGenerator,
-};
+use interface::{Command, GaitChange, Intent, Objection, Places, Reason, Request, SteadyWalk, Verdict, WalkVelocity};
+use pattern::{Departure, Feasibility, FeasibilityCheck, Gait, GaitState, Pace, PatternGenerator};
 
+use crate::limit_objection::objection;
 use crate::localization::Localization;
 use crate::pattern::goal_of;
 
@@ -46,6 +43,8 @@ pub struct AdmissionJob {
     /// How a walk to a destination sets out.
     pub(crate) departure: Departure,
     decision: Option<Decision>,
+    /// The half-step whose end the decision waits for, if it does.
+    waits_in: Option<u64>,
 }
 
 /// What a request asks of the walk.
@@ -95,6 +94,7 @@ impl AdmissionJob {
             localization: Localization::default(),
             departure: Departure { share: 1.0, stops_first: false },
             decision: None,
+            waits_in: None,
         }
     }
 
@@ -107,7 +107,7 @@ impl AdmissionJob {
         };
         let walks = request.velocity.is_some() || request.destination.is_some();
         self.intent = request.intent.or(walks.then_some(Intent::Walk));
-        self.decision = None;
+        (self.decision, self.waits_in) = (None, None);
         self.renew(generator, localization);
     }
 
@@ -121,8 +121,14 @@ impl AdmissionJob {
     /// Decides what can be granted, unless that is decided, and plans the walk with it. The decision may have to wait
     /// for a support change; then the job stays undecided, to be renewed and evaluated again.
     pub fn evaluate(&mut self) {
-        let Some(decision) = self.decision.or_else(|| self.decide()) else { return };
         let index = self.generator.half_step().index;
+        if self.decision.is_none() && self.waits_in == Some(index) {
+            return;
+        }
+        let Some(decision) = self.decision.or_else(|| self.decide()) else {
+            self.waits_in = Some(index);
+            return;
+        };
         if let Wanted::Destination(places, _) = &self.wanted {
             let begins = index + u64::from(self.generator.gait_state().is_stepping());
             if decision.verdict != Verdict::Refused {
@@ -354,24 +360,6 @@ fn apply(generator: &mut PatternGenerator, change: &GaitChange, intent: Option<I
     }
 }
 
-/// A violated limit in the words of a reply.
-pub(crate) fn objection(violation: &LimitViolation) -> Objection {
-    let (reason, joint) = match violation.limit {
-        Limit::Margin => (Reason::Margin, None),
-        Limit::JointRange(joint) => (Reason::JointRange, Some(joint)),
-        Limit::JointRate(joint) => (Reason::JointRate, Some(joint)),
-        Limit::Torque(joint) => (Reason::Torque, Some(joint)),
-        Limit::Voltage(joint) => (Reason::Voltage, Some(joint)),
-        Limit::Friction => (Reason::Friction, None),
-        Limit::YawTorque => (Reason::YawTorque, None),
-        Limit::SoleClearance => (Reason::SoleClearance, None),
-        // Value and bound mean nothing.
-        Limit::LegReach => return Objection { reason: Reason::LegReach, active_limit: None },
-    };
-    let active_limit = Some(ActiveLimit { joint, value: violation.value, limit: violation.bound });
-    Objection { reason, active_limit }
-}
-
 /// A share of the way from one command to another.
 fn between(from: &Command, to: &Command, share: f64) -> Command {
     let mix = |from: f64, to: f64| from + (to - from) * share;
@@ -380,18 +368,5 @@ fn between(from: &Command, to: &Command, share: f64) -> Command {
         speed: mix(from.speed, to.speed),
         extension: mix(from.extension, to.extension),
         sidestep: mix(from.sidestep, to.sidestep),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_violated_joint_limit_is_named_with_its_joint() {
-        let joint = model::Joint::RightKnee;
-        let violation = LimitViolation { limit: Limit::JointRate(joint), value: 14.0, bound: 12.0 };
-        let active_limit = Some(ActiveLimit { joint: Some(joint), value: 14.0, limit: 12.0 });
-        assert_eq!(objection(&violation), Objection { reason: Reason::JointRate, active_limit });
     }
 }

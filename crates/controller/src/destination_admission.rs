@@ -8,7 +8,8 @@ use pattern::{
     Departure, Feasibility, FootstepFault, FootstepProblem, Gait, GaitState, Goal, KNOT, PatternGenerator, Stance,
 };
 
-use crate::admission_job::{AdmissionJob, Decision, objection};
+use crate::admission_job::{AdmissionJob, Decision};
+use crate::limit_objection::objection;
 
 /// Shares of the speed factor at which footsteps are tried, and of the largest half-steps to way-points.
 const SHARES: [f64; 6] = [1.0, 0.85, 0.7, 0.55, 0.4, 0.28];
