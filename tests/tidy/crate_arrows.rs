@@ -19,7 +19,9 @@ pub const BASE: &str = "interface model signal config";
 pub const ARROWS: Table<'_> = &[
     ("cli", "ALL"),
     ("bench", "ALL"),
-    ("web", "BASE controller plant pattern gait paper robots interchange scene dialogue"),
+    ("python", "BASE controller plant robots interchange dialogue lockstep"),
+    ("web", "BASE controller plant paper robots interchange scene dialogue lockstep"),
+    ("lockstep", "BASE controller plant pattern gait robots interchange"),
     ("view", "BASE operator plant record wire runtime scene dialogue"),
     ("teleop", "BASE operator wire runtime"),
     ("doctor", "BASE controller plant interchange pattern gait dynamics"),

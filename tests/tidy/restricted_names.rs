@@ -89,6 +89,7 @@ pub const THREADS: Restriction<'_> = Restriction {
         ("crates/node/src/push_bridge.rs", "exchanges pushes beside the loop"),
         ("crates/node/src/request_bridge.rs", "exchanges requests and replies beside the loop"),
         ("crates/paper/src/search/candidate_pool.rs", "judges candidates on all cores"),
+        ("crates/python/src/batch.rs", "walks on all cores"),
         ("crates/runtime/src/journal.rs", "writes beside the loop"),
         ("crates/teleop/src/hangup.rs", "waits for the end of the terminal while it is read"),
         ("crates/view/src/server.rs", "watches and drives the robot while pages are served"),

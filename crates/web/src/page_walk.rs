@@ -8,12 +8,13 @@ use dialogue::push_text::push_text;
 use dialogue::reply_text::reply_text;
 use dialogue::script::Reader;
 use interface::{Intent, PeriodTiming, PushOutcome, PushReply, PushRequest, Request, Source};
+use lockstep::{LockstepOptions, LockstepWalk, WalkableRobot};
 use model::Joint;
 use plant::Disturbances;
 use scene::{AskedPush, FrameAssembler, FromPage, RobotDrawing, ToPage};
 use serde_json::{Value, json};
 
-use crate::{Beginning, ChosenRobot, LockstepWalk, NamedFile, Session, WalkNews, WalkableRobot};
+use crate::{Beginning, ChosenRobot, NamedFile, Session, WalkNews};
 
 /// A walk of a page.
 #[derive(Debug)]
@@ -51,18 +52,17 @@ impl PageWalk {
             }
         };
         let begins = Request { intent: Some(Intent::Walk), ..Request::new(Source::Script) };
-        let walk = LockstepWalk::new(&robot, beginning.seed, [begins], Disturbances::default());
+        let options = LockstepOptions { seed: beginning.seed, ..LockstepOptions::default() };
+        let walk = LockstepWalk::new(&robot, &options, [begins], Disturbances::default());
         let walk = walk.map_err(|error| error.to_string())?;
         let mechanism = &robot.robot.mechanism;
         let drawing = RobotDrawing::new(mechanism);
         let instance = format!("in this page, seed {}", beginning.seed);
-        news.push(
-            ToPage::Live { instance: &instance, rate_hz: LockstepWalk::RATE_HZ, robot: &drawing }.text().to_string(),
-        );
+        news.push(ToPage::Live { instance: &instance, rate_hz: options.rate.hz(), robot: &drawing }.text().to_string());
         news.push(ToPage::Driver { you: true, taken: true }.text().to_string());
         Ok(Self {
             walk,
-            frames: FrameAssembler::new(mechanism, LockstepWalk::rate(), true),
+            frames: FrameAssembler::new(mechanism, options.rate, true),
             reader: Reader::new("page"),
             waiting: LineQueue::default(),
             lines: BTreeMap::new(),
@@ -125,7 +125,7 @@ impl PageWalk {
             let mut answers = Vec::new();
             if let Some(line) = self.waiting.next_for_at_once(!self.asked.is_empty()) {
                 let request = line.timed.request;
-                let time = LockstepWalk::rate().time(self.walk.tick());
+                let time = self.walk.rate().time(self.walk.tick());
                 self.session.add_command(time, self.lines.remove(&line.number).unwrap_or_default());
                 let id = self.walk.request(&request, &mut |answer| answers.push(answer));
                 self.asked.push_back((id, request));

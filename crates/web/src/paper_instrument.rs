@@ -1,12 +1,11 @@
 //! The paper as an instrument, with the robot and the reading in the box.
 
+use lockstep::WalkableRobot;
 use paper::{
     Dials, FileText, Instrument, InstrumentAnswer, Question, built_in_other_axes, built_in_reading, built_in_scenarios,
 };
 use robots::BuiltInRobot;
 use serde::Serialize;
-
-use crate::WalkableRobot;
 
 /// A message to the page.
 #[derive(Clone, Debug, PartialEq, Serialize)]

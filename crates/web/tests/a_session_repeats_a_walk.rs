@@ -3,10 +3,11 @@
 use config::Config;
 use dialogue::script::Reader;
 use interface::{Intent, Request, Source};
+use lockstep::{LockstepOptions, LockstepWalk, WalkableRobot};
 use plant::Disturbances;
 use scene::FromPage;
 use serde_json::{Value, json};
-use web::{Beginning, LockstepWalk, PageWalk, WalkableRobot};
+use web::{Beginning, PageWalk};
 
 /// What the page says when so many periods have been walked.
 const SAID: [(u64, &str); 6] = [
@@ -49,13 +50,15 @@ fn a_session_repeats_a_walk() {
         let walk = Request { intent: Some(Intent::Walk), ..Request::new(Source::Script) };
         let script = Reader::read_all("commands.jsonl", text("commands").as_bytes()).expect("a script");
         assert_eq!(script.len(), 4, "{}", text("commands"));
-        let rate = LockstepWalk::rate();
+        let options = LockstepOptions { seed, ..LockstepOptions::default() };
+        let rate = options.rate;
         let script = script.iter().map(|timed| Request { not_before: timed.tick(rate), ..timed.request });
         let disturbances = Disturbances::from_toml(&text("disturbances"), "disturbances.toml").expect("a push");
         assert_eq!(disturbances.pushes.len(), 1);
         let configured = WalkableRobot::in_the_box(robot).expect("it is in the box");
-        let mut again = LockstepWalk::new(&configured, seed, [walk].into_iter().chain(script), disturbances).unwrap();
-        let calm = LockstepWalk::new(&configured, seed, [walk], Disturbances::default());
+        let mut again =
+            LockstepWalk::new(&configured, &options, [walk].into_iter().chain(script), disturbances).unwrap();
+        let calm = LockstepWalk::new(&configured, &options, [walk], Disturbances::default());
         let mut calm = calm.expect("it can walk");
         for _ in 0..TICKS {
             again.step(&mut |_| ());

@@ -23,3 +23,11 @@ class AlreadyRunning(HalfstepError):
 
 class TimedOut(HalfstepError):
     """It took too long."""
+
+
+class BadInput(HalfstepError, ValueError):
+    """A wrong value of an argument or in a configuration: file, key, value and remedy."""
+
+
+class Unstable(HalfstepError):
+    """The simulation has become unstable: its numbers mean nothing any more."""

@@ -18,7 +18,25 @@ use crate::WalkableRobot;
 /// Requests of a script that are taken in at a time.
 const AHEAD: usize = 16;
 
-/// A walk that begins in a stand.
+/// With what a walk begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LockstepOptions {
+    /// Of sensor noise and mass errors.
+    pub seed: u64,
+    /// The control rate.
+    pub rate: Rate,
+    /// Whether it begins in a stand, else in stride.
+    pub from_stand: bool,
+}
+
+impl Default for LockstepOptions {
+    /// A stand, at the rate of `config/realtime.toml`.
+    fn default() -> Self {
+        Self { seed: 0, rate: Rate::clamped(1000), from_stand: true }
+    }
+}
+
+/// A walk of controller and plant.
 #[derive(Clone, Debug)]
 pub struct LockstepWalk {
     driver: Box<Driver<InlineWorker>>,
@@ -30,16 +48,13 @@ pub struct LockstepWalk {
     newest: RequestId,
     measurement: Measurement,
     tick: u64,
+    rate: Rate,
     setpoints: SetpointHash,
 }
 
 impl LockstepWalk {
-    /// The control rate, that of `config/realtime.toml` (Hz).
-    pub const RATE_HZ: u32 = 1000;
-
-    /// A robot that stands, as with `--from-stand --lockstep`.
+    /// A robot that stands, as with `--from-stand --lockstep`, or begins in stride.
     ///
-    /// * `seed` – of sensor noise and mass errors
     /// * `requests` – in the order of their ticks
     /// * `disturbances` – of the plant
     ///
@@ -47,17 +62,23 @@ impl LockstepWalk {
     /// The robot cannot walk by its half-step.
     pub fn new(
         robot: &WalkableRobot,
-        seed: u64,
+        options: &LockstepOptions,
         requests: impl IntoIterator<Item = Request>,
         disturbances: Disturbances,
     ) -> Result<Self, WalkError> {
         let WalkableRobot { robot, controller, plant } = robot;
+        let LockstepOptions { seed, rate, from_stand } = *options;
         let controller = controller.for_lockstep();
-        let stand = PatternGenerator::standing_motion(robot, &controller.gait)?;
-        let mut plant = Box::new(Plant::new(&robot.mechanism, plant, &stand, Self::rate().period_s(), seed));
+        let start = if from_stand {
+            PatternGenerator::standing_motion(robot, &controller.gait)?
+        } else {
+            robot.nominal.at(0.0)
+        };
+        let mut plant = Box::new(Plant::new(&robot.mechanism, plant, &start, rate.period_s(), seed));
         plant.disturbances = disturbances;
         plant.disturbances.make_room();
-        let controller = Controller::standing(&robot.mechanism, robot.nominal.clone(), &controller, Start::default())?;
+        let begin = if from_stand { Controller::standing } else { Controller::new };
+        let controller = begin(&robot.mechanism, robot.nominal.clone(), &controller, Start::default())?;
         Ok(Self {
             driver: Box::new(Driver { controller, worker: InlineWorker }),
             obedience: Obedience::of(&plant),
@@ -67,13 +88,19 @@ impl LockstepWalk {
             measurement: plant.measure(),
             plant,
             tick: 0,
+            rate,
             setpoints: SetpointHash::default(),
         })
     }
 
     /// The control rate.
-    pub fn rate() -> Rate {
-        Rate::clamped(Self::RATE_HZ)
+    pub fn rate(&self) -> Rate {
+        self.rate
+    }
+
+    /// The simulated robot.
+    pub fn plant(&self) -> &Plant {
+        &self.plant
     }
 
     /// The period that comes next, counted from 0: how many have been walked.
@@ -127,9 +154,9 @@ impl LockstepWalk {
         {
             self.add(request, answer);
         }
-        let Self { driver, plant, obedience, schedule, tick: next_tick, .. } = self;
+        let Self { driver, plant, obedience, schedule, tick: next_tick, rate, .. } = self;
         let mut submitted = None;
-        let step = driver.step(Self::rate().period_s(), Some(&self.measurement), |urgent_only| {
+        let step = driver.step(rate.period_s(), Some(&self.measurement), |urgent_only| {
             submitted = schedule.due(*next_tick, 0, urgent_only, answer);
             submitted.map(|due| due.request)
         });

@@ -1,12 +1,11 @@
 //! A robot that can walk here, read from the texts of its configuration folder.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use config::{Config, ConfigErrors};
 use gait::{NominalTable, Robot, TableFileError};
 use interchange::import::NamedText;
-use model::Mechanism;
 use plant::PlantParameters;
 use robots::{BuiltInRobot, ImportedRobot, ImportedRobotError};
 
@@ -39,13 +38,16 @@ pub enum WalkableRobotError {
 }
 
 impl WalkableRobot {
+    /// Names of the files that it is read from.
+    pub const FILES: [&str; 4] = ["mechanism.toml", "nominal_half_step.csv", "controller.toml", "plant.toml"];
+
     /// The robot in the box with this name.
     ///
     /// # Errors
     /// There is none.
     pub fn in_the_box(name: &str) -> Result<Self, WalkableRobotError> {
         let robot = BuiltInRobot::named(name).map_err(WalkableRobotError::Unknown)?;
-        Self::read(&robot.files)
+        Self::read(Path::new(""), &robot.files)
     }
 
     /// A robot that comes as a URDF, imported as by `halfstep import`; and what the import found, one text each.
@@ -55,20 +57,30 @@ impl WalkableRobot {
     pub fn imported(urdf: NamedText, map: Option<NamedText>) -> Result<(Self, Vec<String>), WalkableRobotError> {
         let ImportedRobot { imported, files, .. } = ImportedRobot::new(urdf, map)?;
         let files = files.each_ref().map(|(name, text)| (*name, text.as_str()));
-        Ok((Self::read(&files)?, imported.lines))
+        Ok((Self::read(Path::new(""), &files)?, imported.lines))
     }
 
-    /// Reads names and texts of the files.
-    fn read(files: &[(&str, &str)]) -> Result<Self, WalkableRobotError> {
-        let text = |name: &str| files.iter().find(|(file, _)| *file == name).map_or("", |(_, text)| *text);
-        let nominal = "nominal_half_step.csv";
+    /// Reads names and texts of the [files](Self::FILES) of a folder: paths in them are relative to it, and messages
+    /// name it.
+    ///
+    /// # Errors
+    /// Everything that is wrong in the first file that is.
+    pub fn read(folder: &Path, files: &[(&str, &str)]) -> Result<Self, WalkableRobotError> {
+        let [mechanism, nominal, controller, plant] = Self::FILES.map(|name| {
+            let text = files.iter().find(|(file, _)| *file == name).map_or("", |(_, text)| *text);
+            (text, folder.join(name))
+        });
         Ok(Self {
             robot: Robot {
-                mechanism: Mechanism::from_toml(text("mechanism.toml"), "mechanism.toml")?,
-                nominal: Arc::new(NominalTable::from_csv(text(nominal), Path::new(nominal))?),
+                mechanism: of_file(mechanism)?,
+                nominal: Arc::new(NominalTable::from_csv(nominal.0, &nominal.1)?),
             },
-            controller: controller::Parameters::from_toml(text("controller.toml"), "controller.toml")?,
-            plant: PlantParameters::from_toml(text("plant.toml"), "plant.toml")?,
+            controller: of_file(controller)?,
+            plant: of_file(plant)?,
         })
     }
+}
+
+fn of_file<C: Config>((text, file): (&str, PathBuf)) -> Result<C, ConfigErrors> {
+    C::from_toml(text, &file.display().to_string())
 }
