@@ -28,6 +28,7 @@ use crate::command_arbiter::CommandArbiter;
 use crate::drive_deflection::DriveDeflection;
 use crate::gravity_consistency::GravityConsistency;
 use crate::joint_limiter::JointLimiter;
+use crate::joint_residual::JointResidual;
 use crate::measurement_validator::MeasurementValidator;
 use crate::operating_state::OperatingState;
 use crate::parameters::Parameters;
@@ -68,6 +69,7 @@ pub struct Controller {
     last_setpoint: Option<Setpoint>,
     /// The part of its angles by which feedback leans on the ground (rad).
     yielding: JointVector,
+    residual: JointResidual,
     /// The last valid joint angles (rad).
     measured_angles: Option<JointVector>,
     /// The joint by which the robot was found in another posture than the controller begins in, while it holds it.
@@ -163,6 +165,7 @@ impl Controller {
             limiter: JointLimiter::new(mechanism, &first),
             last_setpoint: None,
             yielding: JointVector::ZERO,
+            residual: JointResidual::default(),
             measured_angles: None,
             unexpected_posture: None,
             gravity: GravityConsistency::default(),
@@ -262,6 +265,13 @@ impl Controller {
         Reply { mode: Some(self.mode()), latched: self.latched, walk, ..reply }
     }
 
+    /// Adds an angle to each joint's setpoint from the next tick on (rad), at most 0.3 rad either way, until it is set
+    /// anew; a critically damped lag of 20 ms follows it. The sum passes the limits of the joints; NaN adds nothing.
+    /// The controller knows of it: a joint that follows is no fault. A posture that is held has none.
+    pub fn set_joint_residual(&mut self, residual: &JointVector) {
+        self.residual.set(residual);
+    }
+
     /// What the controller is doing.
     pub fn mode(&self) -> Mode {
         self.state.mode(self.pattern.gait().phase())
@@ -331,7 +341,7 @@ impl Controller {
         }
         let gait = self.pattern.gait();
         let (support, mirror) = (gait.half_step().support, gait.walk().mirror());
-        let motion = mirror.to_physical(support, commanded);
+        let motion = self.residual.added_to(mirror.to_physical(support, commanded), dt);
         let torques = mirror.to_physical(support, &self.reference.torques);
         self.yielding = mirror.to_physical(support, &self.feedback.offsets().angles);
         self.limiter.limit(&motion, &torques, dt, faults)

@@ -14,6 +14,7 @@ mod drive_deflection;
 mod driver;
 mod gravity_consistency;
 mod joint_limiter;
+mod joint_residual;
 mod limit_objection;
 mod localization;
 mod measurement_validator;

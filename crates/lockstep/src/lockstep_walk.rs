@@ -10,6 +10,7 @@ use std::convert::Infallible;
 use controller::{Controller, Driver, DueRequest, InlineWorker, RequestAnswer, RequestId, RequestSchedule, Tick};
 use gait::{Start, WalkError};
 use interface::{Measurement, PushOutcome, PushRequest, Rate, Request, SetpointHash};
+use model::JointVector;
 use pattern::PatternGenerator;
 use plant::{Disturbances, Obedience, Plant, Push};
 
@@ -132,6 +133,11 @@ impl LockstepWalk {
         self.newest = self.newest.next();
         self.schedule.add(DueRequest { id: self.newest, request }, answer);
         self.newest
+    }
+
+    /// Adds an angle to each joint's setpoint from the next period on (rad), see [`Controller::set_joint_residual`].
+    pub fn set_joint_residual(&mut self, residual: &JointVector) {
+        self.driver.controller.set_joint_residual(residual);
     }
 
     /// Begins a push, and returns it as a script of disturbances has it.

@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::thread::available_parallelism;
 
+use model::{Joint, PerJoint};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -130,6 +131,19 @@ impl PythonBatch {
             if impulse != [0.0; 3] {
                 walk.push(impulse, lasts, link)?;
             }
+        }
+        Ok(())
+    }
+
+    /// Adds an angle to each joint's setpoint of each walk from the next period on (rad), a row each.
+    fn residuals(&mut self, angles: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
+        if angles.shape() != [self.walks.len(), Joint::COUNT] {
+            let ([rows, columns], walks) = ([angles.shape()[0], angles.shape()[1]], self.walks.len());
+            let joints = Joint::COUNT;
+            return Err(bad_input(format!("angles: must be {walks} × {joints}, but are {rows} × {columns}")));
+        }
+        for (walk, angles) in self.walks.iter_mut().zip(angles.as_array().rows()) {
+            walk.walk.set_joint_residual(&PerJoint::from_fn(|joint| angles[joint.index()]));
         }
         Ok(())
     }

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use model::{Joint, PerJoint};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -101,6 +102,11 @@ impl PythonWalk {
     #[pyo3(signature = (impulse, lasts=0.1, name="trunk"))]
     fn push(&mut self, impulse: [f64; 3], lasts: f64, name: &str) -> PyResult<()> {
         self.walk.push(impulse, lasts, link(name)?)
+    }
+
+    /// Adds an angle to each joint's setpoint from the next period on (rad).
+    fn residual(&mut self, angles: [f64; Joint::COUNT]) {
+        self.walk.walk.set_joint_residual(&PerJoint(angles));
     }
 
     /// Begins anew, with another seed if one is given.

@@ -41,6 +41,12 @@ class States:
     def __len__(self) -> int:
         return len(self.rows) if self.rows.ndim > 1 else 1
 
+    def __eq__(self, other: object) -> bool:
+        """Whether all numbers are the same; what is unknown in both is."""
+        return isinstance(other, States) and np.array_equal(self.rows, other.rows, equal_nan=True)
+
+    __hash__ = None  # type: ignore[assignment]
+
     def __getitem__(self, place: Any) -> States:
         """Some of the states."""
         if self.rows.ndim < 2:

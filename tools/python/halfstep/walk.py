@@ -15,7 +15,7 @@ from ._halfstep import Snapshot
 from .asked import WalkReply, line_of, reply_of
 from .destination import Footstep, Waypoint
 from .errors import BadInput
-from .messages import Intent
+from .messages import Intent, Joint
 from .states import States
 
 Path = str | os.PathLike[str]
@@ -116,6 +116,14 @@ class Walk:
         """Pushes a link from the next period on, by an impulse ahead, to the left and up [N·s] over some time [s]."""
         ahead, left, up = np.asarray(impulse, dtype=float)
         self._walk.push((ahead, left, up), lasts, link)
+
+    def residual(self, angles: ArrayLike) -> None:
+        """Adds an angle to each joint's setpoint [rad], from the next period on until it is set anew.
+
+        Joints are in the order of `Joint`. At most 0.3 rad is added; a lag of 20 ms follows; the sum passes the limits of
+        the joints.
+        """
+        self._walk.residual(np.asarray(angles, dtype=float).tolist())
 
     def reset(self, seed: int | None = None) -> None:
         """Begins anew, with another seed if one is given."""
@@ -257,6 +265,11 @@ class Batch:
         """Pushes a link of each walk: impulses ahead, to the left and up [N·s], one row each; zeros are no push."""
         each = np.broadcast_to(np.asarray(impulses, dtype=float), (len(self), 3))
         self._batch.push(np.ascontiguousarray(each), lasts, link)
+
+    def residuals(self, angles: ArrayLike) -> None:
+        """Adds an angle to each joint's setpoint of each walk [rad], one row each, until they are set anew."""
+        each = np.broadcast_to(np.asarray(angles, dtype=float), (len(self), len(Joint)))
+        self._batch.residuals(np.ascontiguousarray(each))
 
     def reset(self, which: ArrayLike | None = None, seeds: ArrayLike | None = None) -> None:
         """Begins walks anew: those that are flagged, or all; with other seeds if they are given, one for each walk."""

@@ -3,9 +3,12 @@
 python -m unittest discover tools/python/tests          HALFSTEP_LONG=1 for five seeds of 60 s instead of one of 8 s
 """
 
+import contextlib
+import io
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import sysconfig
@@ -19,6 +22,7 @@ import halfstep
 from halfstep import BadInput, Batch, Footstep, Mode, Side, Verdict, Walk, Waypoint
 
 PROGRAM = Path(sysconfig.get_path("scripts")) / "halfstep"
+DOCUMENTATION = Path(__file__).parents[3] / "docs" / "python.md"
 EXAMPLE = Path(__file__).parent.parent / "examples" / "walk_in_this_process.py"
 LONG = bool(os.environ.get("HALFSTEP_LONG"))
 SECONDS, SEEDS = (60, range(5)) if LONG else (8, range(3, 4))
@@ -49,6 +53,15 @@ class TheWheel(unittest.TestCase):
         self.assertEqual(told.returncode, 0, told.stderr)
         self.assertIn("fell: False", told.stdout)
         self.assertGreater((self.folder / "zmp.png").stat().st_size, 10_000)
+
+    def test_what_the_documentation_shows_runs(self):
+        blocks = re.findall(r"```python\n(.*?)```", DOCUMENTATION.read_text(), re.DOTALL)
+        self.assertEqual(len(blocks), 2)
+        for block in blocks:
+            told = io.StringIO()
+            with contextlib.redirect_stdout(told):
+                exec(compile(block, DOCUMENTATION.name, "exec"), {})
+            self.assertGreater(len(told.getvalue().splitlines()), 0, block)
 
     def test_a_walk_has_the_bits_of_two_processes(self):
         (self.folder / "my.jsonl").write_text(COMMANDS)
