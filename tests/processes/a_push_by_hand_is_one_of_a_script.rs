@@ -9,7 +9,7 @@ use model::{Joint, Mechanism};
 use record::{Recording, RunEvent, files_of};
 use wire::{PushClient, PushError, PushReplyMessage, PushRequestMessage};
 
-const PATIENCE: Duration = Duration::from_secs(30);
+const PATIENCE: Duration = Duration::from_secs(300);
 
 fn outcome(reply: &PushReplyMessage) -> PushOutcome {
     reply.checked().expect("a reply").outcome
