@@ -221,7 +221,8 @@ mod tests {
         let machine = Machine::of_this_process();
         let report = BenchReport { what: "latency", machine, series: vec![ours, theirs], ratios, notes: Vec::new() };
         let text = report.to_string();
-        assert!(text.contains("of at most 1.15 missed   p99.9 of ours / theirs"), "{text}");
+        let line = format!("1.50 {:14} of at most 1.15 missed   p99.9 of ours / theirs", "");
+        assert!(text.contains(&line), "{text}");
         let json = serde_json::to_value(&report).unwrap();
         assert_eq!((&json["ratios"][0]["number"], &json["series"][1]["name"]), (&"p99.9".into(), &"theirs".into()));
         assert_eq!(json["ratios"][0]["verdict"], "missed");

@@ -49,7 +49,7 @@ impl PaperArgs {
         let mut errors = Errors::default();
         let files = self.config.files();
         let robot = files.robot(&mut errors);
-        let texts = errors.note(PaperFiles::of(&files.folder));
+        let texts = errors.note(PaperFiles::of(&files.folder, &files.mechanism_file()));
         let reading =
             texts.as_ref().and_then(|texts| errors.note(Reading::from_toml(&texts.reading.text, &texts.reading.name)));
         let scenarios = texts.as_ref().and_then(|texts| errors.note(Scenario::read_all(&texts.scenarios)));

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use ::paper::{FileText, Scenario, built_in_other_axes, built_in_reading, built_in_scenarios};
 use config::ConfigErrors;
+use robots::BuiltInRobot;
 
 /// Name of the file with the reading.
 const READING: &str = "paper.toml";
@@ -24,16 +25,19 @@ pub(super) struct PaperFiles {
 }
 
 impl PaperFiles {
-    /// Reads the folder's files, or takes the built-in ones.
+    /// Reads the files beside a mechanism's in a folder, or takes the built-in ones.
     ///
     /// # Errors
     /// The folder has a reading or scenarios, and lacks the other or cannot be read.
-    pub(super) fn of(folder: &Path) -> Result<Self, ConfigErrors> {
+    pub(super) fn of(folder: &Path, mechanism: &Path) -> Result<Self, ConfigErrors> {
         if !folder.join(READING).exists() && !folder.join(SCENARIOS).exists() {
+            // Those of the paper's robot are no other reading of another one.
+            let is_of_the_paper =
+                config::read_text(mechanism).is_ok_and(|text| text == BuiltInRobot::of_the_paper().mechanism_text());
             return Ok(Self {
                 reading: built_in_reading(),
                 scenarios: built_in_scenarios(),
-                other_axes: vec![built_in_other_axes()],
+                other_axes: if is_of_the_paper { vec![built_in_other_axes()] } else { Vec::new() },
             });
         }
         let other_axes = OTHER_AXES.map(|name| folder.join(name));
